@@ -10,7 +10,7 @@
 #include "runs/run.hpp"
 #include "show/runs_view.hpp"
 
-/// From -C to a run: what most verbs begin with.
+/// The steps with which most verbs begin: find the cell of -C, read its measurements, get a run.
 namespace plumb::offline::cli {
 
 /// The cell.toml of -C, or the nearest one upward. Throws Failure (kInput, E-CELL-NONE).
@@ -46,9 +46,10 @@ Run keep(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 /// Keeps with a run the noise floor that a diagnosis of its model found.
 void keep_floor(const Cell& cell, const Run& run, const NoiseFloor& floor);
 
-/// The latest run of the present cell and data; if there is none, fits and keeps one, and says so.
-/// With kNothing the new run is not kept and has number 0.
+/// Whether a run that is made is kept; one that is not has number 0.
 enum class Keep { kRun, kNothing };
+
+/// The latest run of the present cell and data; if there is none, fits one, and says so.
 Run current_or_new_run(const Cell& cell, const MeasurementFiles& measured, Keep keep_it,
                        Outcome& outcome);
 

@@ -38,7 +38,7 @@ void lock_cell(const fs::path& folder, std::chrono::milliseconds longest) {
     const Progress progress("waiting for another plumb in this cell");
     if (lock.wait(longest) == FolderLock::State::kBusy) give_up(folder, longest);
   }
-  // Of a folder that is not there, whoever writes in it will say so.
+  // A folder that does not exist cannot be locked; whoever writes into it reports that.
   if (lock.state() == FolderLock::State::kHeld) locked.emplace(whole, std::move(lock));
 }
 

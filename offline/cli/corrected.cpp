@@ -6,7 +6,7 @@ namespace {
 
 constexpr double kNothing_m = 1e-9, kNothing_rad = 1e-9;  // smaller corrections count as none
 
-/// Without a quaternion the nominal orientation at the seed is meant.
+/// The desired pose of a row. A row without a quaternion keeps the nominal orientation at its seed.
 Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
                        std::span<const double> seed) {
   const auto p = targets.p_B.row(row);

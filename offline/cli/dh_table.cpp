@@ -268,7 +268,8 @@ class DhTableReader {
     return out;
   }
 
-  /// As its heading or its cells state it; else a problem, with what the numbers look like.
+  /// The unit that the heading or the cells of a column state. If neither does, it reports a
+  /// problem that names the unit that the numbers look like.
   std::string unit_of_column(std::size_t k) {
     const DhColumn& column = columns_[k];
     if (!column.heading.unit.empty()) return column.heading.unit;

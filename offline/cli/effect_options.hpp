@@ -27,10 +27,12 @@ struct EffectOptions {
   /// The options that name an effect; `law_too` adds those that define a formula.
   void add_to(VerbOptions& verb, bool law_too);
 
-  /// As they would stand in the cell file, whole. Throws Failure (kUsage) with "did you mean".
+  /// The effects that the options describe, complete as in a cell file. Throws Failure (kUsage)
+  /// with "did you mean".
   std::vector<EffectEntry> to_add(const Cell& cell) const;
 
-  /// As far as they are described. Throws Failure (kUsage) with "did you mean".
+  /// The effects to drop, with those joints and settings alone that the options name. Throws
+  /// Failure (kUsage) with "did you mean".
   std::vector<EffectEntry> to_drop(const Cell& cell) const;
 
   /// The option that a place in the text of a cell with these effects comes from:

@@ -11,9 +11,9 @@ std::string to_type(const Globals& globals, const std::string& words) {
   const std::string plumb = command_in("plumb", globals.directory);
   std::string out = plumb + words;
   constexpr std::string_view kAnother = " && plumb ";
-  for (std::size_t at = 0; (at = out.find(kAnother, at)) != std::string::npos;
-       at += plumb.size() + 4)
-    out.replace(at, kAnother.size(), " && " + plumb);
+  const std::string another = " && " + plumb;
+  for (std::size_t at = 0; (at = out.find(kAnother, at)) != std::string::npos; at += another.size())
+    out.replace(at, kAnother.size(), another);
   return out;
 }
 

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kNearlyAll = 0.8;      // share of refused targets that a mistake must explain
 constexpr double kNearPosition = 0.15;  // share of the reach: nearer targets fit their seeds
-constexpr double kNearTurn_rad = 0.5;
-constexpr double kTakesPart = 0.35;  // least share of a joint in a motion of unit length
-constexpr double kSpread = 0.1;      // scatter of a common offset, as a share of it
-constexpr double kNoticeable_m = 0.05;
-constexpr std::size_t kShownSets = 3;
+constexpr double kNearTurn_rad = 0.5;   // a target turned by less fits its seed, too
+constexpr double kTakesPart = 0.35;     // least share of a joint in a motion of unit length
+constexpr double kSpread = 0.1;         // scatter of a common offset, as a share of it
+constexpr double kNoticeable_m = 0.05;  // a common offset smaller than this is not mentioned
+constexpr std::size_t kShownSets = 3;   // sets of joints that are named
 
 /// The farthest the tool can be from the base, or a little more.
 double reach_of(const Chain& chain) {

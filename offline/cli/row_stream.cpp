@@ -16,13 +16,15 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr std::size_t kMostProblems = 1000;
-constexpr std::size_t kMostAfterError = 64 << 20;  // bytes, if the input may be endless
-constexpr int kLargestPart = 64 << 20;             // bytes, of what is kept of a block
-constexpr int kKeptFree = 256 << 20;               // bytes
+constexpr std::size_t kMostProblems = 1000;  // are reported; nobody reads more
+/// Bytes that are read on after the first problem, if the input is a pipe, which may never end.
+constexpr std::size_t kMostAfterError = 64 << 20;
+/// Larger allocations go back to the system when they are freed, and of the rest the process keeps
+/// this much [bytes].
+constexpr int kLargestPart = 64 << 20, kKeptFree = 256 << 20;
 
-/// Every block takes the memory of an earlier one. Given back to the system in between, it would
-/// cost a tenth of the time, for its pages are cleared each time.
+/// Lets every block reuse the memory of an earlier one. Memory that goes back to the system is
+/// cleared page by page before it is used again, which costs a tenth of the time.
 void keep_freed_memory() {
   ::mallopt(M_MMAP_THRESHOLD, kLargestPart);
   ::mallopt(M_TRIM_THRESHOLD, kKeptFree);
@@ -47,8 +49,8 @@ void append(std::vector<Problem>& to, const std::vector<Problem>& more) {
   to.insert(to.end(), more.begin(), more.begin() + static_cast<long>(std::min(room, more.size())));
 }
 
-/// Only the problems of rows: every block would report those of the header and of the whole file
-/// again.
+/// The problems of rows alone. Those of the header and of the whole file were reported with the
+/// first block; every further block finds them again.
 std::vector<Problem> below(int header_line, std::vector<Problem> problems) {
   std::erase_if(problems, [&](const Problem& problem) {
     return !problem.place || problem.place->line <= header_line || problem.place->column == 0;
@@ -147,7 +149,8 @@ class Pass {
     return out;
   }
 
-  /// False if there is no use in reading on.
+  /// Appends a block to the output, or its problems to the list. Returns false if reading on is of
+  /// no use.
   bool take(Block block) {
     if (rows_ > 0)
       block.of_rows = below(header_line_, std::move(block.of_rows));

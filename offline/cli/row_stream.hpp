@@ -26,7 +26,7 @@ class RowCells {
   std::span<const std::string_view> cells() const { return std::span(cells_).first(count_); }
 
  private:
-  static constexpr std::size_t kMost = 12, kLongest = 32;
+  static constexpr std::size_t kMost = 12, kLongest = 32;  // cells of a row; characters of a number
   std::array<char, kMost * kLongest> text_;
   std::array<std::string_view, kMost> cells_;
   std::size_t count_ = 0, used_ = 0;
@@ -46,10 +46,12 @@ class RowStream {
     std::function<void(std::string&)> append;  // in the order of the file, by one thread
   };
 
-  /// Of a block, by any thread. Throws Failure with what is wrong with the rows.
+  /// Computes one block; is called from several threads. Throws Failure with what is wrong with the
+  /// rows.
   using Work = std::function<Computed(Table, const show::PassThrough&)>;
 
-  /// Throws Failure (kUsage) if the output may not be written: it is the file that is read, say.
+  /// Throws Failure (kUsage) if the output may not be written, for example because it is the file
+  /// that is read.
   RowStream(std::filesystem::path file, std::vector<std::string> columns, const CsvOutput& output,
             Outcome& outcome);
 

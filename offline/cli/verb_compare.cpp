@@ -33,7 +33,8 @@ std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
   return out;
 }
 
-/// Most of what many readings take: nothing quotes the rows of files that are not fitted.
+/// Frees most of the memory that many readings take. The texts of rows are only quoted in messages
+/// of a fit, and none is made here.
 void forget_rows(MeasurementFiles& measured) {
   for (Table& table : measured.tables) {
     table.raw_rows = {};
@@ -42,8 +43,9 @@ void forget_rows(MeasurementFiles& measured) {
   }
 }
 
-/// The allocator would keep blocks of up to 32 MB once one was freed, and a million rows need many.
-constexpr int kGivenBack = 4 << 20;  // bytes
+/// Blocks of memory from this size on go back to the system when they are freed [bytes]. By default
+/// the limit grows up to 32 MB, and with a million rows the process would keep many such blocks.
+constexpr int kGivenBack = 4 << 20;
 
 void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   ::mallopt(M_MMAP_THRESHOLD, kGivenBack);

@@ -61,12 +61,12 @@ bool differs(const NoiseFloor& found, const NoiseFloor& kept) {
   return std::abs(found.inferred_m - kept.inferred_m) > kAnotherFloor * kept.mean_m;
 }
 
-/// Beside the run, for compare and report. A folder that cannot be written is no reason not to
-/// diagnose: both then do without it.
+/// Writes findings and noise floor beside the run, where compare and report find them. A folder
+/// that cannot be written is no error: compare and report then do without.
 void keep_what_was_found(const DiagnoseArguments& options, const Cell& cell, const Run& run,
                          const Diagnosis& found) {
   if (!options.apply) report::keep_diagnosis(run, found);
-  // With additions the floor is that of the new model, whose run keeps it.
+  // If effects were added the floor belongs to the new model, and its run keeps it.
   if (!found.added.empty() || !differs(found.floor, run.fit.floor)) return;
   try {
     keep_floor(cell, run, found.floor);

@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNearParallel = 0.05;  // sine of the angle between neighbouring axes
+/// An arm whose links add up to more or less than these has, most often, lengths in another unit.
 constexpr double kLongestReach_m = 25.0, kShortestReach_m = 0.05;
 
 struct NewArguments {
@@ -95,7 +96,8 @@ void doubt_reach(const NewArguments& options, const Cell& cell, Outcome& outcome
                      "d_mm, or a_m and d_m"});
 }
 
-/// As the cell file wants it: a word without dots and blanks, which other places refer to.
+/// The name of a joint as the cell file can hold it: without dots and blanks, because parameters
+/// ("J2.d") and lists refer to it.
 std::string joint_name(const std::string& given) {
   std::string out = valid_utf8(given);
   for (char& c : out)

@@ -16,7 +16,8 @@ struct ServeArguments {
   bool open = false;
 };
 
-/// At once, because the end of the verb may be a week away; with --json stdout is for the result.
+/// Prints the address at once, because the verb ends only when the user stops it. With --json it
+/// goes to stderr, because stdout is for the result.
 void say_address(const std::string& url, const Globals& globals) {
   std::FILE* const to = globals.output == Globals::Output::kJson ? stderr : stdout;
   std::fputs((url + "\n").c_str(), to);

@@ -49,7 +49,7 @@ void list_effects(Outcome& outcome) {
   }
 }
 
-/// Of the first set-up, if there are several.
+/// The file into which the measurements go if none is named; of several set-ups that of the first.
 fs::path usual_file(const Cell& cell) {
   const MeasurementSettings& m = cell.measurement;
   if (!m.setups.empty() && !m.setups.front().files.empty()) return m.setups.front().files.front();
