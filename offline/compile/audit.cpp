@@ -16,13 +16,15 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kBorderPoints = 32;    // checked on each leaf border
-constexpr int kHalvings = 60;        // bisection steps, down to neighbouring doubles
-constexpr double kStill = 1e-3;      // [rad] or [m]; a joint with a smaller range did not move
-constexpr double kLargeJump = 0.1;   // share of the guard's limit; more gives a warning
-constexpr double kLargeSigma = 0.3;  // likewise
-
-constexpr int kRoomForEffects = 8;  // fewer left than these gives a warning
+constexpr int kBorderPoints = 32;  // checked on each leaf border
+constexpr int kHalvings = 60;      // bisection steps, down to neighbouring doubles
+constexpr double kStill = 1e-3;    // [rad] or [m]; a joint with a smaller range did not move
+/// A step at a leaf border, and 1 sigma of the tool, that are larger than these shares of the
+/// guard's largest correction give a warning. Chosen: both are small beside the corrections that
+/// are made.
+constexpr double kLargeJump = 0.1, kLargeSigma = 0.3;
+/// So does a model with room for fewer effects than this.
+constexpr int kRoomForEffects = 8;
 
 using Box = std::vector<std::pair<double, double>>;
 

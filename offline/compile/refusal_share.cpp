@@ -15,17 +15,19 @@
 namespace plumb::offline {
 namespace {
 
+// All chosen: the words of a place must help a person to plan poses, no more.
 constexpr std::size_t kMostPlaces = 3;
-constexpr double kMuchDenser = 5.0;
+constexpr double kMuchDenser = 5.0;  // times the mean share of refusals makes a place
+/// A narrower place is preferred if it holds this share of the refusals of the fullest one.
 constexpr double kMostOfAWiderOne = 0.8;
-constexpr double kLeastShare = 0.1;  // of the refusals; smaller places are not worth a word
+constexpr double kLeastShare = 0.1;  // of the refusals; places with less are not mentioned
 constexpr int kBins = 180;           // of half a turn, or of the range of a prismatic joint
 constexpr int kCentreStep = 5;       // bins
 constexpr std::array<int, 7> kWidths{1, 2, 3, 5, 8, 12, 20};  // bins to either side
 
 bool slides(const format::JointRow& row) { return row.type == format::JointType::kPrismatic; }
 
-/// What joint positions are folded by.
+/// Joint positions are counted modulo this: half a turn, or the whole travel of a prismatic joint.
 double period(const format::JointRow& row) {
   return slides(row) ? row.q_max - row.q_min : std::numbers::pi;
 }
@@ -54,7 +56,8 @@ Bins counted(std::span<const PoseTried> all, const format::JointRow& row, std::s
   return out;
 }
 
-/// The bins to either side of the lower edge of bin `centre`; those of half a turn go round.
+/// Sums the bins to either side of the lower edge of bin `centre`. With `round` the last bin is
+/// next to the first, as positions modulo half a turn are.
 Bin around(const Bins& bins, int centre, int width, bool round) {
   Bin out;
   for (int k = centre - width; k < centre + width; ++k) {
@@ -147,7 +150,7 @@ Range joint_limits(const format::Chain& nominal) {
   return out;
 }
 
-/// Of a joint that no pose tells, its limits.
+/// The range of each joint in the fitted poses; where that is not known, the joint limits.
 Range trained_range(const format::Model& model) {
   Range out = joint_limits(model.nominal);
   for (std::size_t j = 0; j < std::min(out.size(), model.domain.q_min.size()); ++j) {

@@ -25,9 +25,9 @@ struct RefusedPlace {
   double share = 0.0;   // of all poses, 0 .. 1; none counted at two places
 };
 
-/// Where poses are refused: the places that hold most, the fullest first, at most three. A place is
-/// one where refusals are at least five times as dense as elsewhere; it is as narrow as holds most
-/// of what a wider one would.
+/// Where poses are refused: at most three places, the one with most refusals first. In a place
+/// refusals are at least five times as frequent as on average. Of several widths the narrowest is
+/// taken that holds at least 80 % of the refusals of the fullest.
 std::vector<RefusedPlace> refused_places(std::span<const PoseTried> all,
                                          const format::Chain& nominal);
 
