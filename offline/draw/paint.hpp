@@ -6,8 +6,9 @@
 
 namespace plumb::offline::draw {
 
-/// Colours by meaning. Each has one value on a light and one on a dark ground; classes are those of
-/// Okabe and Ito, which colour-blind readers tell apart.
+/// Colours by meaning. Each has one value on a light and one on a dark background. The colours that
+/// tell classes apart, from kBlue on, are those of Okabe and Ito, which colour-blind readers can
+/// distinguish.
 enum class Tone {
   kPaper,
   kInk,
@@ -32,7 +33,7 @@ class Paint {
   bool is_tone() const { return set_ && colour_.empty(); }
   int tone() const { return static_cast<int>(tone_); }
 
-  /// The same, of which so much (0 .. 1) covers what is below it.
+  /// The same paint with this opacity, 0 .. 1.
   Paint faded(double opacity) const;
   double opacity() const { return opacity_; }
 

@@ -13,10 +13,10 @@ constexpr double kTickSize = 11.0, kTitleSize = 11.5, kNameSize = 12.5;
 constexpr double kTickRoom = 24.0, kLogTickRoom = 18.0;  // [px] of a y axis for each tick
 constexpr double kTickGap = 12.0;                        // [px] between the labels of an x axis
 constexpr double kLine = 16.0, kHalo = 3.0;
-constexpr double kInkStep = 5.0;      // [px] of a line that count as one mark
-constexpr double kAreaWeight = 8.0;   // marks: what a bar under a label counts
-constexpr double kLevelWeight = 1e4;  // marks: what another level under the name of one counts
-constexpr std::size_t kMostInk = 20000;
+constexpr double kInkStep = 5.0;         // [px] of a line that count as one mark
+constexpr double kAreaWeight = 8.0;      // marks: what a bar under a label counts
+constexpr double kLevelWeight = 1e4;     // marks: what another level under the name of one counts
+constexpr std::size_t kMostInk = 20000;  // marks that labels avoid; more would take too long
 
 double share_of(const Axis& axis, double value) {
   if (axis.scale == Axis::Scale::kLinear) return (value - axis.low) / (axis.high - axis.low);

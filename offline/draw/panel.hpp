@@ -36,13 +36,13 @@ class Panel {
 
   void mark(double x, double y, const Mark& mark);
 
-  /// What of the line lies inside the frame.
+  /// Draws the part of the line that lies inside the frame.
   void line(const std::vector<Point>& values, const LineStyle& style);
 
   /// Between two curves over the same x; points are (x, low) and (x, high).
   void band(const std::vector<Point>& low, const std::vector<Point>& high, const Paint& paint);
 
-  /// From (x0, y0) to (x1, y1), in the units of the axes.
+  /// A rectangle with the corners (x0, y0) and (x1, y1), in the units of the axes.
   void bar(double x0, double y0, double x1, double y1, const Paint& paint,
            const LineStyle& edge = {.paint = {}}, const std::string& words = {});
 

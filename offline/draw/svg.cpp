@@ -33,14 +33,14 @@ constexpr const char* name_of(Anchor anchor) {
   return anchor == Anchor::kStart ? "start" : anchor == Anchor::kMiddle ? "middle" : "end";
 }
 
-/// With one decimal, and none if that is 0: "12.5", "12", "-3".
+/// A coordinate [px], rounded to a tenth: "12.5", "12", "-3".
 std::string number(double value) {
   std::string out = fmt::format("{:.1f}", value);
   if (out.ends_with(".0")) out.resize(out.size() - 2);
   return out == "-0" ? "0" : out;
 }
 
-/// Two numbers of a path; a minus sign parts them as well as a blank does.
+/// Two numbers of a path. A minus sign separates them, so that no blank is needed before it.
 std::string pair_of(double x, double y) {
   const std::string second = number(y);
   return number(x) + (second.front() == '-' ? "" : " ") + second;
@@ -247,7 +247,7 @@ void Svg::marks(const std::vector<Point>& at, const Mark& mark) {
   if (path.empty()) return;
   end_group();
   body_ += "<path d=\"" + path + "\"";
-  if (circle) {
+  if (circle) {  // each is a line of length 0 with round ends
     body_ += " stroke-linecap=\"round\"";
     attributes({}, {.paint = mark.paint, .width = 2.0 * mark.size});
   } else {

@@ -51,8 +51,8 @@ struct Mark {
   std::string words = {};
 };
 
-/// As text and as attribute of XML; control characters, which XML forbids, become U+FFFD, and so do
-/// bytes that are no UTF-8.
+/// The text as it may stand in XML, also in an attribute. Control characters, which XML forbids,
+/// and bytes that are no UTF-8 become U+FFFD.
 std::string escaped(std::string_view text);
 
 /// The elements of one drawing, in the order of painting. It remembers where texts are, so that a
@@ -81,7 +81,7 @@ class Svg {
   void arrow(Point from, Point to, const LineStyle& style, const std::string& pose = {},
              const std::string& words = {});
 
-  /// From here on, drawn inside the box only; until `end_clip`.
+  /// Cuts off what is drawn outside the box, until `end_clip`.
   void clip(const Box& box);
   void end_clip();
 

@@ -11,7 +11,7 @@ namespace plumb::offline::draw {
 namespace {
 
 constexpr double kSlack = 1e-9;  // of a step: rounding of what lies on a tick
-constexpr double kSmallest = 1e-300, kLargest = 1e300;
+constexpr double kSmallest = 1e-300, kLargest = 1e300;  // so that no range overflows
 
 std::pair<double, double> sound_range(double low, double high) {
   if (!std::isfinite(low)) low = std::isfinite(high) ? high : 0.0;

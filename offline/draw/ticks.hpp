@@ -19,9 +19,9 @@ struct Tick {
 /// 0 to 1. All texts have the same number of decimals, and zero has no sign.
 std::vector<Tick> round_ticks(double low, double high, int most);
 
-/// The same for a logarithmic axis: powers of ten, or every second or fifth ... power if there are
-/// more than `most`; also their 2- and 5-fold if there is room. What is not above 0 is left out; no
-/// range: 1 to 10.
+/// Ticks of a logarithmic axis: powers of ten, or only every second, fifth ... power if there are
+/// more than `most`; also 2 and 5 times these if there is room. An end that is not above 0 is
+/// replaced by a power of ten near the other end; without any range it is 1 to 10.
 std::vector<Tick> log_ticks(double low, double high, int most);
 
 /// The number with so many significant digits, without an exponent and without a sign on zero:
