@@ -13,6 +13,8 @@ Testability can_show(std::string why);
 Testability can_show_weakly(std::string why);
 Testability cannot_show(std::string why);
 
+/// Numbers of poses from which on the laws ask for them: a law with few numbers, one with several,
+/// and one with many for each joint. Chosen.
 inline constexpr int kFewPoses = 40, kManyPoses = 150, kDensePoses = 500;
 inline constexpr double kLever_m = 0.02;  // least DataSense::lever_m that counts as a varying load
 inline constexpr double kLongTravel_m = 0.1;                  // of a joint that slides

@@ -78,7 +78,7 @@ struct Refinement {
 struct AtSlide {
   const char* unit;  // of its parameters
   double typical;    // 1 sigma of their prior, in that unit
-  // As those of the descriptor.
+  // The same members as in EffectDescriptor, for a joint that slides.
   const char* sentence;
   const char* negative_sentence = nullptr;
   std::span<const GridAxis> grid = {};

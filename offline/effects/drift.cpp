@@ -12,8 +12,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kSettlingShares[] = {0.1, 0.3};  // of the session
-constexpr double kLongestSettling_s = 30.0 * 86400.0;
+constexpr double kSettlingShares[] = {0.1, 0.3};       // of the session
+constexpr double kLongestSettling_s = 30.0 * 86400.0;  // chosen: longer than any session
 
 constexpr EffectOption kDriftOptions[] = {{
     .key = OptionKey::kSettling,

@@ -5,7 +5,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kFewestPoses = 10;
+constexpr int kFewestPoses = 10;  // chosen: 30 coordinates for about 30 numbers
 
 Testability geometry_testable(const DataSense& data) {
   if (data.poses < kFewestPoses) return cannot_show(poses_text(data));

@@ -21,8 +21,8 @@ constexpr EffectOption kPitchErrorOptions[] = {{
     .lists = true,
 }};
 
-/// From half of the travel down to this share of it: finer pitches have more periods over the
-/// travel than a scan can tell apart at a fair price.
+/// The pitches of the scan, as shares of the travel, from the coarsest to the finest. Chosen:
+/// finer pitches have more periods over the travel than a scan can tell apart in a reasonable time.
 constexpr double kPitchShares[] = {1.0 / 2.0, 1.0 / 150.0};
 constexpr GridAxis kPitchErrorGrid[] = {
     {.key = OptionKey::kPitch_mm, .kind = GridAxis::Values::kPitches, .values = kPitchShares}};

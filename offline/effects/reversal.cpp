@@ -13,6 +13,8 @@
 namespace plumb::offline {
 namespace {
 
+/// Travel after a turn until the other flank is loaded, if the cell does not state it; and the
+/// values that a scan tries. Chosen.
 constexpr double kDefaultTransition_rad = 0.01;
 constexpr double kDefaultTransition_m = 1e-3;
 constexpr double kBothWays = 0.2;  // share of the rarer direction

@@ -13,6 +13,8 @@
 namespace plumb::offline {
 namespace {
 
+/// Least ranges of temperature that show growth weakly, and clearly. Chosen: over 1 K a metre of
+/// steel grows by 12 um, about the noise of a tracker.
 constexpr double kWarm_K = 2.0, kWarmer_K = 5.0;
 constexpr double kShortest_h = 0.5;             // in which an arm warms up
 constexpr double kRoomTemperature_degC = 20.0;  // if no row says its temperature

@@ -7,7 +7,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kTippedLever_m = 1e-3;
+constexpr double kTippedLever_m = 1e-3;  // least change of the lever of gravity that counts
 
 Testability tool_sag_testable(const DataSense& data) {
   // The tool sags differently only if it is tipped against gravity.

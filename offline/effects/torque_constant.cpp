@@ -6,8 +6,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kTurnsOverAt = 0.5;  // of the largest torque, where the cell says nothing
-constexpr double kLeastTorque_Nm = 1e-6;
+constexpr double kTurnsOverAt = 0.5;      // of the largest torque, where the cell says nothing
+constexpr double kLeastTorque_Nm = 1e-6;  // it is a divisor
 
 }  // namespace
 

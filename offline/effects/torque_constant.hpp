@@ -6,6 +6,8 @@
 /// Shared by laws with a term that saturates beyond some torque of the joint, torque_Nm.
 namespace plumb::offline {
 
+/// Values that a scan tries, as shares of the largest torque. Chosen: evenly on a logarithmic scale
+/// up to the largest one below.
 inline constexpr double kTorqueShares[] = {0.03, 0.1, 0.3};
 inline constexpr GridAxis kTorqueGrid[] = {{.key = OptionKey::kTorque_Nm,
                                             .kind = GridAxis::Values::kOfLargestTorque,
