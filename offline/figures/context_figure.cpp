@@ -19,7 +19,7 @@ using draw::Tone;
 
 constexpr std::size_t kMostContextPoints = 300;  // in each panel
 constexpr int kContextSteps = 10;                // of the local means
-constexpr double kFewestInStep = 4.0;
+constexpr double kFewestInStep = 4.0;            // poses, for a mean and its interval
 constexpr double kContext95 = 1.96;
 constexpr double kClearSlope = 4.0;  // standard errors of a slope, of a dozen that are looked at
 constexpr std::array<const char*, 3> kComponent{"x", "y", "z"};

@@ -88,7 +88,7 @@ std::string coverage_sentence(const std::vector<JointCoverage>& joints) {
       least->gap_from, least->gap_to, least->unit);
 }
 
-/// With folds every pose is held out once, and fitted by the model of the run.
+/// True if the run was made with folds: every pose is then held out once.
 bool in_folds(const RunResults& results) {
   return results.run.fit.split.folds > 0 && results.fit.empty();
 }

@@ -18,8 +18,8 @@ std::string error_ecdf(const RunResults& results, double width);
 /// Every pose, sorted by its error, with the same pose before; the worst ones named.
 std::string error_by_pose(const RunResults& results, double width);
 
-/// From above, from the side and from the front: arrows at the measured points, all enlarged by one
-/// stated factor, and the arm in one pose.
+/// Views from above, from the side and from the front: the errors as arrows at the measured points,
+/// all enlarged by one stated factor, and the arm in one pose.
 std::string error_map(const RunResults& results, double width);
 
 }  // namespace plumb::offline::figures

@@ -17,9 +17,9 @@ namespace {
 
 using draw::Tone;
 
-constexpr std::size_t kMostCandidates = 12;
-constexpr double kCandidateRow = 44.0;  // [px]
-constexpr double kLargestLn = 1000.0;   // beyond it "over 1000"
+constexpr std::size_t kMostCandidates = 12;  // are drawn
+constexpr double kCandidateRow = 44.0;       // [px]
+constexpr double kLargestLn = 1000.0;        // beyond it "over 1000"
 
 std::string joint_names(const Cell& cell, const std::vector<int>& joints,
                         const std::string& between, const std::string& last) {
@@ -89,7 +89,7 @@ Tone tone_of(const Candidate& c) {
   return !c.supported ? Tone::kGrid : c.plausible ? Tone::kBlue : Tone::kOrange;
 }
 
-/// Of what occurs among the first `n` candidates.
+/// Legend entries for what occurs among the first `n` candidates.
 std::vector<draw::LegendEntry> evidence_legend(const Cell& cell, const Diagnosis& d,
                                                std::size_t n) {
   std::vector<draw::LegendEntry> out;

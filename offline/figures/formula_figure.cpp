@@ -122,7 +122,8 @@ void draw_formula(const RunResults& results, const FormulaPoints& one, draw::Pan
   panel.line(curve.middle, {.paint = Tone::kInk, .width = 2.0});
 }
 
-/// Of the values: zero, the law, and all but the outermost hundredth of the points.
+/// The range of the vertical axis: it holds zero, the law, and all points but the outermost
+/// hundredth.
 std::pair<double, double> value_range(const FormulaPoints& one) {
   std::vector<double> values;
   double low = 0.0, high = 0.0;

@@ -28,9 +28,9 @@ struct FormulaPoints {
   std::vector<Pose> poses = {};  // by input
 };
 
-/// Of every formula of the run, in the order of its effects. Of several inputs the one is taken
-/// that the value of the formula follows most. Outliers are left out, repeats in a row averaged.
-/// Cost: poses * formulas * (inputs + parameters).
+/// The points of every formula of the run, in the order of its effects. If a formula reads several
+/// inputs, the one is taken with which its value correlates most. Outliers are left out, repeats in
+/// a row averaged. Cost: poses * formulas * (inputs + parameters).
 std::vector<FormulaPoints> formula_points(const RunResults& results);
 
 /// Whether the run has a formula.

@@ -29,7 +29,8 @@ struct HeatMap {
   std::vector<MapLine> lines;
 };
 
-/// A panel of the room with the map in it; neighbours of one colour in a row are one rectangle.
+/// Draws the map into `room` and returns its panel. Neighbouring cells of one colour in a row
+/// become one rectangle, so that the file stays small.
 draw::Panel draw_map(const HeatMap& map, draw::Svg& svg, const draw::Box& room,
                      const std::string& name = {});
 

@@ -19,13 +19,13 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostPoints = 500, kMostSmallPoints = 200;
+constexpr std::size_t kMostPoints = 500, kMostSmallPoints = 200;  // of a figure, of a small one
 constexpr double kOverMedian = 1.5;  // of the ranges of the joints: the locked scale
-constexpr int kLawPoints = 181;
+constexpr int kLawPoints = 181;      // of the curve of a fitted law
 constexpr double kLaw95 = 1.96;
 constexpr double kStandOut = 2.0;  // half-widths of the 95 % interval: far beyond chance
 
-/// Holds the curve and all but the outermost hundredth of the points.
+/// Half the height of the axis: it holds the curve and all points but the outermost hundredth.
 double half_range(const JointResidual& joint) {
   std::vector<double> sizes;
   for (const auto& pose : joint.poses) sizes.push_back(std::abs(pose.value));

@@ -14,11 +14,11 @@
 namespace plumb::offline::figures {
 namespace {
 
-constexpr std::size_t kProbes = 5;
-constexpr double kMoves = 1e-12;  // [rad] or [m]: less is no motion
-constexpr double kAlike = 1e-6;   // of the largest motion: less is no dependence
-constexpr double kStep = 0.05;    // of the standard deviation of a number
-constexpr double kLeastStep = 1e-12;
+constexpr std::size_t kProbes = 5;    // positions at which an effect is tried
+constexpr double kMoves = 1e-12;      // [rad] or [m]: less is no motion
+constexpr double kAlike = 1e-6;       // of the largest motion: less is no dependence
+constexpr double kStep = 0.05;        // of the standard deviation of a number
+constexpr double kLeastStep = 1e-12;  // of a difference, SI
 
 }  // namespace
 

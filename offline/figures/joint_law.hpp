@@ -37,7 +37,8 @@ class JointLaw {
   double at_pose(int row) const;
   Value with_sigma(int row) const;
 
-  /// Of kOwnPosition: at this position of the joint, come from this side (-1, +1, 0 unknown).
+  /// The value at this position of the joint, reached from this side (-1, +1, 0 unknown). For
+  /// kOwnPosition only.
   Value at(double q, int side) const;
 
   /// Whether it depends on the side from which the joint came.

@@ -32,7 +32,8 @@ struct JointResidual {
   double rms = 0.0, rms_without_curve = 0.0;  // weighted
 };
 
-/// Of every joint that moves, in their order. Cost: joints * (poses log poses + 100 poses).
+/// The residuals of every joint that moves, in the order of the arm. Cost: joints * (poses log
+/// poses + 100 poses).
 std::vector<JointResidual> joint_residuals(const RunResults& results);
 
 /// Weighted scatter of values about their mean.

@@ -21,7 +21,7 @@ struct Spectrum {
   int points = 0;
 };
 
-/// Of the deviations `value` of the poses of `joint`, one for each. `ratio`: of the gear, 0 if it
+/// The spectrum of `value`, one deviation for each pose of `joint`. `ratio`: of the gear, 0 if it
 /// is not known; the spectrum then reaches beyond twice a turn of the motor. Empty if the poses are
 /// fewer than six or the joint does not move. Cost: frequencies * poses.
 Spectrum spectrum_of(const JointResidual& joint, const std::vector<double>& value, double ratio);

@@ -208,7 +208,8 @@ LoadCurve line_curve(const Loading& all, const Line& line) {
   return {std::move(middle), std::move(under), std::move(over)};
 }
 
-/// Of the values [µrad] or [µm]: zero, the law, and all but the outermost hundredth of the points.
+/// The range of the vertical axis [µrad] or [µm]: it holds zero, the law, and all points but the
+/// outermost hundredth.
 std::pair<double, double> range_of(const Loading& all) {
   std::vector<double> values;
   std::pair<double, double> out{0.0, 0.0};

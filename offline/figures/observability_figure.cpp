@@ -24,8 +24,8 @@ namespace {
 
 using draw::Tone;
 
-constexpr double kLogFall = 10.0;  // from the first to the last sigma: a logarithmic axis
-constexpr int kPool = 800, kJudged = 200;
+constexpr double kLogFall = 10.0;          // from the first to the last sigma: a logarithmic axis
+constexpr int kPool = 800, kJudged = 200;  // random poses to choose from, and to judge by
 constexpr std::uint64_t kPoolSeed = 1, kRandomSeed = 77, kJudgedSeed = 78;
 
 /// G = A M^-1 A^T of some poses, A the whitened derivatives of one. Kept up to date while readings
@@ -67,7 +67,8 @@ class Gains {
   }
 
  private:
-  /// As large as a reading has axes, and so without the heap, which would take most of the time.
+  /// A square of the axes of one reading, at most 6, which needs no heap: allocations would take
+  /// most of the time.
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
   std::vector<Eigen::MatrixXd> lines_;
@@ -105,7 +106,8 @@ std::vector<PoseGain> gains_of(Gains poses, Gains judged, Eigen::MatrixXd covari
   return out;
 }
 
-/// As a plan takes it: by the repeats, or as stated; not what the model misses.
+/// 1 sigma of a coordinate, as in a plan: from repeats, or as stated. The error of the model does
+/// not count.
 double reading_sigma(const Cell& cell, const Measurements& used) {
   const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
   return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);

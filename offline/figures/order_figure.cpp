@@ -20,8 +20,8 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr int kMostVisits = 400;
-constexpr int kWindows = 20;  // moving means along the series
+constexpr int kMostVisits = 400;  // are drawn
+constexpr int kWindows = 20;      // moving means along the series
 
 struct InOrder {
   Series series;
@@ -103,7 +103,7 @@ void draw_axis(const RunResults& results, const InOrder& all, int axis, const Le
   const Series& series = all.series;
   panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
   const double stride = std::max(1.0, static_cast<double>(series.size()) / kMostVisits);
-  for (const bool is_held : {false, true})  // these on top
+  for (const bool is_held : {false, true})  // held-out poses on top
     for (double at = 0.0; at < series.size(); at += stride) {
       const int i = static_cast<int>(at), row = series.first_row[static_cast<std::size_t>(i)];
       if (held.contains(row) != is_held) continue;

@@ -25,8 +25,8 @@ struct WaterfallStep {
   int worse = 0;        // held-out poses whose error grew beyond noise, against the step before
 };
 
-/// From the nominal arm over those of the `earlier` runs, each with fewer effects than the next and
-/// with the same held-out poses, to the run itself.
+/// The steps from the nominal arm to the run. In between are those of the `earlier` runs that have
+/// the same held-out poses, each with fewer effects than the next.
 std::vector<WaterfallStep> waterfall_steps(const RunResults& results,
                                            const std::vector<Run>& earlier);
 
@@ -35,7 +35,8 @@ std::string waterfall(const RunResults& results, const std::vector<WaterfallStep
                       double width);
 
 /// The mean error of the run's rechecks one after the other, before and after what had changed was
-/// refitted, with the control limit: what a check exceeds by chance once in some hundred.
+/// refitted, with the control limit: three standard deviations above the expected mean, which a
+/// check exceeds by chance about once in a thousand times.
 std::string history_figure(const RunResults& results, double width);
 
 /// The error at readings that were not fitted over the number of poses that were, of the arm alone

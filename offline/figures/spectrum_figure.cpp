@@ -23,10 +23,11 @@ constexpr double kBeyondMotor = 2.2;                                // times a t
 constexpr double kMostEver = 1000.0;   // cycles: an encoder line is not a gear
 constexpr double kOversampling = 4.0;  // frequencies in each that can be told apart
 constexpr double kWork = 4e6;          // poses * frequencies in one spectrum
-constexpr double kFinely = 8.0;        // times as many below so many waves in the range
+constexpr double kFinely = 8.0;        // as many frequencies more below so many waves in the range
 constexpr double kLeastWaves = 0.75;   // in the range: less looks like a slope
 constexpr double kSeen = 0.06;         // of the axis: a peak that is named
-constexpr double kChance = 0.01;
+constexpr double kChance = 0.01;       // that noise exceeds Spectrum::chance anywhere
+/// Least poses of a spectrum; peaks that are named; steps after which sines are computed anew.
 constexpr std::size_t kFewestForSpectrum = 6, kNamed = 4, kResync = 64;
 
 /// Weighted sums for one frequency, and the share that a wave with a free mean explains.
@@ -91,7 +92,8 @@ std::string cycles_text(double cycles) {
   return cycles < 100.0 ? fmt::format("{:.1f}", cycles) : fmt::format("{:.0f}", cycles);
 }
 
-/// Of place k of a spectrum: its first one stands for all slower waves, too.
+/// The frequency at place k of a spectrum in words. The first place stands for all slower waves,
+/// too.
 std::string cycles_at(const Spectrum& of, std::size_t k) {
   return (k == 0 ? "at most " : "") + cycles_text(of.cycles[k]);
 }
@@ -136,7 +138,7 @@ std::string spectrum_sentence(const JointResidual& joint, const Drawn& drawn) {
 void draw_line(const Spectrum& of, const draw::LineStyle& style, draw::Panel& panel) {
   std::vector<draw::Point> points;
   for (std::size_t k = 0; k < of.cycles.size(); ++k) {
-    // Of the frequencies that share a pixel only the highest share is seen.
+    // Where several frequencies fall into one pixel the highest share is drawn.
     const draw::Point here{of.cycles[k], 100.0 * of.share[k]};
     if (!points.empty() && panel.x_at(here.x) - panel.x_at(points.back().x) < 0.5)
       points.back().y = std::max(points.back().y, here.y);

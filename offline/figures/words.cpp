@@ -16,8 +16,8 @@
 namespace plumb::offline::figures {
 namespace {
 
-constexpr double kMicrometresBelow_m = 0.2e-3;
-constexpr double kNamed_px = 160.0;  // a longer name of a pose is cut
+constexpr double kMicrometresBelow_m = 0.2e-3;  // smaller lengths are shown in um
+constexpr double kNamed_px = 160.0;             // a longer name of a pose is cut
 constexpr std::size_t kWorstShare = 10;
 
 std::string counted_poses(std::size_t n, const std::string& kind) {

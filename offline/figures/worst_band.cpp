@@ -13,9 +13,9 @@
 namespace plumb::offline::figures {
 namespace {
 
-constexpr int kSteps = 8;
-constexpr std::size_t kFewestInBand = 4;
-constexpr double kStandardErrors = 4.0;  // 1 % shared among the 72 steps of nine joints
+constexpr int kSteps = 8;                 // of the range of a joint
+constexpr std::size_t kFewestInBand = 4;  // poses, for a mean and its standard error
+constexpr double kStandardErrors = 4.0;   // 1 % shared among the 72 steps of nine joints
 
 struct Sums {
   double n = 0.0, sum = 0.0, squares = 0.0;

@@ -16,8 +16,9 @@ struct WorstBand {
   std::vector<int> rows;  // the judged rows in it, worst first
 };
 
-/// Of all joints, cut into eight equal steps: the one whose mean error is most standard errors
-/// above that of the other poses, if there are at least four [Bonferroni over all steps, 1 %].
+/// The range of every joint is cut into eight equal steps. Returns the step whose mean error lies
+/// most standard errors above that of the other poses; none if that is fewer than four, which is
+/// exceeded by chance in about 1 % of all runs (Bonferroni over all steps).
 /// Cost: joints * poses.
 std::optional<WorstBand> worst_band(const RunResults& results);
 
