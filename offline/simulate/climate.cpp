@@ -11,10 +11,11 @@ namespace {
 constexpr double kMinute = 60.0;
 constexpr double kHour = 3600.0;
 constexpr int kTableSteps = 2000;
-constexpr double kWorkInPause = 0.2;
-constexpr double kRise_K = 8.0;
-constexpr double kLag = 28.0 * kMinute;
-constexpr double kSpread = 0.3;
+// Chosen to be like a medium arm in a hall: some kelvins in half an hour.
+constexpr double kWorkInPause = 0.2;     // heat in the pause, as a share of that of full work
+constexpr double kRise_K = 8.0;          // of a zone at full work, in the end
+constexpr double kLag = 28.0 * kMinute;  // time constant of a zone
+constexpr double kSpread = 0.3;          // largest difference of ln rise and ln lag of a zone
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 namespace plumb::offline {
 namespace {
 
-/// With the fewest digits that read back to the same number.
+/// The number with the fewest digits that read back to the same double.
 std::string number_text(double value) { return nlohmann::ordered_json(value).dump(); }
 
 std::string size_text(const std::optional<double>& size, const sim::LawEntry& law) {

@@ -25,8 +25,9 @@ struct World {
   Isometry3d X_MB = Isometry3d::Identity();  // true base in the tracker frame
   Isometry3d X_TG = Isometry3d::Identity();  // reflector in the tool frame
   double most_payload_kg = 0.0;
-  double richness = 1.0;  // factor on the second-order terms of every law
-  RowsN scatter = {};     // errors of the drives at each visit; no rows: none
+  /// Factor on the second-order terms of every law. The formulas above the laws are for 1.
+  double richness = 1.0;
+  RowsN scatter = {};  // errors of the drives at each visit; no rows: none
 
   /// The positions of the joints at one visit.
   VectorXd joints(const Visit& visit) const { return masses.drives.to_joints(visit.q); }

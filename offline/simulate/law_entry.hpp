@@ -29,6 +29,7 @@ LawEntry like(LawEntry entry, std::vector<std::string> others);
 /// Sets a different name of the effect in the library.
 LawEntry called(LawEntry entry, const std::string& library);
 
+/// Sets whether the effect acts on the robot or only while something is measured.
 LawEntry during(LawEntry entry, LawEntry::Domain domain);
 
 }  // namespace plumb::offline::sim

@@ -14,7 +14,8 @@ constexpr int kTwist = 6;
 
 using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-// e_tip = R d + (R e) x (p - o) for a unit twist (d, e) in the frame (R, o).
+// Fills six columns with the shift of the tip p by a twist (d, e) in the frame (R, o):
+//   R d + (R e) x (p - o), turns e divided by the reach so that all columns have the same unit
 void add_slot(const Isometry3d& slot, const Vector3d& tip, double reach, int column, Columns& out) {
   const Vector3d lever = tip - slot.translation();
   for (int k = 0; k < 3; ++k) {

@@ -10,7 +10,7 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr double kUsualBaseTip_m = 0.15e-3;
-constexpr double kBaseSoftening = 0.1;
+constexpr double kBaseSoftening = 0.1;  // s
 
 double largest_moment(const World& world) {
   double most = 0.0;

@@ -7,7 +7,7 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kCrossSoftening = 0.06;
+constexpr double kCrossSoftening = 0.06;  // s
 
 // The neighbouring joint with the largest gravity torque.
 int loaded_neighbour(const VectorXd& torque, int joint) {

@@ -8,9 +8,9 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr double kHour_s = 3600.0;
-constexpr double kLag_s = 1200.0;
-constexpr double kLagShare = 0.6;
-constexpr double kSwingShare = 0.05;
+constexpr double kLag_s = 1200.0;     // T
+constexpr double kLagShare = 0.6;     // a
+constexpr double kSwingShare = 0.05;  // b
 constexpr double kUsualSize_m = 0.15e-3;
 
 /// Base twist = (d, e) g(t),

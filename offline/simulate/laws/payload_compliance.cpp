@@ -26,7 +26,7 @@ VectorXd largest_payload_torque(const World& world) {
 //   dq = size ((1 - s) x + s x^3), x = payload torque / its largest
 MadeLaw make_payload_compliance(const HiddenEffect& effect, const World& world) {
   constexpr double kUsualPayloadYield_rad = 60e-6;
-  constexpr double kProgressive = 0.08;
+  constexpr double kProgressive = 0.08;  // s
   if (world.most_payload_kg <= 0.0) refuse(effect, "it carries nothing");
   const VectorXd torque = largest_payload_torque(world);
   const double floor = 1e-2 * torque.maxCoeff();

@@ -8,11 +8,10 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kSlowest = 0.5;
-constexpr double kFastest = 40.0;
-constexpr double kFromHarmonics = 0.25;  // distance kept from 1 and 2 cycles a turn
-constexpr double kSideband = 0.06;
-constexpr double kLoadShare = 0.15;
+constexpr double kSlowest = 0.5, kFastest = 40.0;  // cycles a turn
+constexpr double kFromHarmonics = 0.25;            // distance kept from 1 and 2 cycles a turn
+constexpr double kSideband = 0.06;                 // b
+constexpr double kLoadShare = 0.15;                // m
 
 // Draws the cycles a turn from a log-uniform distribution. The number is hardly ever an integer.
 double draw_cycles(Random& random) {

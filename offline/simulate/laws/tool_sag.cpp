@@ -8,8 +8,8 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr double kUsualSag_m = 60e-6;
-constexpr double kOwnShare = 0.15;  // share of the tool's own weight in the heaviest load
-constexpr double kTurn_per_m = 2.0;
+constexpr double kOwnShare = 0.15;   // share of the tool's own weight in the heaviest load
+constexpr double kTurn_per_m = 2.0;  // [rad] for each metre that the tool sags
 
 }  // namespace
 

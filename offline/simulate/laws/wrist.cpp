@@ -11,8 +11,8 @@ namespace plumb::offline::sim {
 //   dq5 = k45 (q4 + 0.05 sin 2 q4),  dq6 = k46 q4 + k56 (q5 + 0.05 sin 2 q5);  size: k45
 MadeLaw make_wrist_coupling(const HiddenEffect& effect, const World& world) {
   constexpr double kUsualWristCoupling_rad = 60e-6;
-  constexpr double kTeeth = 0.05;
-  constexpr int kWristJoints = 3;
+  constexpr double kTeeth = 0.05;  // error of the teeth, twice a turn, as a share of the coupling
+  constexpr int kWristJoints = 3;  // behind at least two joints that move the wrist
   const int n = world.arm.joints();
   if (n < kWristJoints + 2) refuse(effect, "it has no wrist of three joints");
   for (int j = n - kWristJoints; j < n; ++j) {
