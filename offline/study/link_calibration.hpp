@@ -7,7 +7,8 @@
 namespace plumb::offline::study {
 
 /// The calibration method of the study, which is the modified Newton method of its eqs. (6) to (9):
-/// d <- d + (J^T J)^-1 J^T (measured - model(d)), as long as the deviations decrease.
+/// d <- d + (J^T J)^-1 J^T (measured - model(d)), as long as the deviations decrease. Because the
+/// model is linear in d, the first step already is the solution; the second finds no decrease.
 struct LinkCalibration {
   Links d = kNominalLinks;
   int iterations = 0;          // including the last one, which finds no decrease

@@ -22,9 +22,11 @@ namespace plumb::offline::study {
 namespace {
 
 constexpr double kMm = 1e-3;
-constexpr int kDisjoint = 20000;
+constexpr int kDisjoint = 20000;  // random poses, none of them on a grid of the study
 constexpr std::uint64_t kDisjointSeed = 5985;
 constexpr double kDelta = 0.035, kGain = 0.02;  // stop criteria of the study
+/// Least samples a leaf with which the printed sizes of the trees come out (planar_remarks.cpp),
+/// and numbers of leaves of the trees beside them.
 constexpr int kSamplesCalibrated = 10, kSamplesAlone = 6, kSamplesFine = 31;
 constexpr int kAffineLeaves = 93, kQuadraticLeaves = 80, kAloneLeaves = 211;
 constexpr int kFineAffine = 3300, kFineQuadratic = 1600;

@@ -23,10 +23,10 @@
 namespace plumb::offline::study {
 namespace {
 
-constexpr int kFresh = 2000;
-constexpr int kLeaves = 5;
-constexpr double kNoise_m = 10e-6;
-constexpr double kMoving_kg = 400.0;
+constexpr int kFresh = 2000;          // poses that nothing was fitted to
+constexpr int kLeaves = 5;            // of a tree at most
+constexpr double kNoise_m = 10e-6;    // of the tracker
+constexpr double kMoving_kg = 400.0;  // mass of the moving links
 const std::vector<std::string> kHidden{"joint_compliance:J2=42urad,J3=42urad",
                                        "gear_harmonics:J1=30urad"};
 

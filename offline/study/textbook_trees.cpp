@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSigmaShare = 1.0 / 3.0;  // share of the width of a cell
-constexpr double kM5 = 15.0;
+constexpr double kM5 = 15.0;  // weight of the parent in the smoothing of M5 [Quinlan 1992]
 
 struct Cell {
   VectorXd low, high;
