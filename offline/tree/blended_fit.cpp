@@ -18,8 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int kDenseUnknowns = 900;
-constexpr Index kSlab = 256;
+constexpr int kDenseUnknowns = 900;   // more are solved with sparse matrices
+constexpr Index kSlab = 256;          // rows that are added to the normal equations at once
 constexpr double kLeastScale = 1e-6;  // smallest scale of a leaf, in normalised inputs
 constexpr double kRootRidge = 1e-12;  // ridge of the model for the whole box
 

@@ -49,7 +49,7 @@ class BlendedPath {
   const Samples& y_;
   BlendSettings settings_;
   GrownTree grown_;
-  Splits stand_;
+  Splits stand_;            // the splits that are made so far
   std::vector<int> cells_;  // the cells that are leaves
   int leaves_ = 0;
   std::unique_ptr<BlendedFit> fit_;

@@ -26,7 +26,8 @@ constexpr int kPosesPerCoefficient = 10;
 /// Largest depth of crisp trees. The cycle always makes as many comparisons as the deepest leaf
 /// needs, so a few more leaves elsewhere cost less than a single deep one.
 constexpr int kCrispDepth = 10;
-constexpr double kCrispMustGain = 0.95;  // share of the error of the blended trees
+/// Crisp trees are taken if their error is below this share of that of blended ones. Chosen.
+constexpr double kCrispMustGain = 0.95;
 
 using Chosen = std::array<int, format::kTreeAxes>;  // index of the candidate for each axis
 

@@ -23,8 +23,9 @@ struct TreeChoice {
   std::string reason;        // one sentence: why this size, or why no tree
 };
 
-/// kEither: blended trees, unless the cross-validated error of crisp trees is lower by a further 5
-/// %. That can happen with many crisp leaves, on thousands of scattered poses of six joints.
+/// kEither: blended trees, unless the cross-validated error of crisp trees is lower by more than
+/// 5 %, because crisp trees step at the borders of their leaves. That can happen with many crisp
+/// leaves, on thousands of scattered poses of six joints.
 enum class TreeForm { kBlended, kCrisp, kEither };
 
 /// Blended trees have leaves up to quadratic, crisp trees have affine leaves.
