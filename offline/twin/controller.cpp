@@ -14,11 +14,11 @@ namespace {
 using drivers::BusMessage;
 using drivers::MessageKind;
 
-constexpr double kRest_s = 0.06;      // time without motion until the arm counts as at rest
-constexpr double kStill_m = 1.5e-6;   // the bus counts in micrometres
-constexpr double kServoStill = 2e-7;  // [rad] or [m] from the goal
-constexpr double kOtherTool_m = 0.02;
-constexpr double kForeign_m = 0.001;  // what a second sender adds to the target
+constexpr double kRest_s = 0.06;       // time without motion until the arm counts as at rest
+constexpr double kStill_m = 1.5e-6;    // the bus counts in micrometres
+constexpr double kServoStill = 2e-7;   // [rad] or [m] from the goal
+constexpr double kOtherTool_m = 0.02;  // length by which a wrong tool differs
+constexpr double kForeign_m = 0.001;   // what a second sender adds to the target
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
@@ -153,7 +153,8 @@ Receiver::Own Controller::own_state() const {
           .acknowledge = state().acknowledge};
 }
 
-/// With drives off or at a protective stop the arm stands where it is, whatever its correction.
+/// The cycle of an arm whose drives are off or that is at a protective stop: it stays where it is,
+/// whatever the correction.
 void Controller::stand() {
   stood_ = true;
   receiver_.step(time_.now_ns, settings_.cycle_s, own_state());

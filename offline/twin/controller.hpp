@@ -63,7 +63,7 @@ struct ControllerCounters {
 /// To be used by one thread.
 class Controller {
  public:
-  /// With kIgnore it sends and receives nothing.
+  /// kIgnore: it sends and receives nothing.
   enum class Corrections { kIgnore, kUse };
 
   Controller(const Cell& cell, const Path& path, const ControllerSettings& settings,

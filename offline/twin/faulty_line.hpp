@@ -45,7 +45,7 @@ class FaultyLine {
   void clear() { under_way_.clear(); }
 
  private:
-  static constexpr double kLongestDetour_s = 0.012;
+  static constexpr double kLongestDetour_s = 0.012;  // delay of a message that others overtake
   struct UnderWay {
     std::int64_t due_ns;
     Unit unit;

@@ -29,7 +29,7 @@ struct LinkChoice {
 };
 
 /// The layout in `file`, which is the table [bus] of an rt.toml or [deploy.bus] of a cell.toml.
-/// Without such a table it is the default layout. Throws Failure (kInput).
+/// A file without such a table has the default layout. Throws Failure (kInput).
 drivers::BusLayout read_layout(const Cell& cell, const std::filesystem::path& file,
                                drivers::BusUse use);
 

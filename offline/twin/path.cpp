@@ -11,15 +11,16 @@
 namespace plumb::offline::twin {
 namespace {
 
-constexpr int kDrawnPerStation = 4;
-constexpr int kTriesPerStation = 200;
-constexpr int kBetween = 8;          // poses that are checked on the way
-constexpr double kAtStation = 0.06;  // least dexterity
-constexpr double kOnTheWay = 0.04;
-constexpr double kPeak = 1.875;   // ratio of the highest speed of a move to its mean speed
-constexpr double kNearby = 0.25;  // share of the range of a joint
-constexpr double kShortest_s = 0.1;
-constexpr int kParts = 32;  // parts of a move in which the speed of the tool is checked
+constexpr int kDrawnPerStation = 4;    // candidates, so that the next one is near and reachable
+constexpr int kTriesPerStation = 200;  // random poses, most of which are refused
+constexpr int kBetween = 8;            // poses that are checked on the way
+/// Least dexterity (NominalArm::dexterity) at a station and on the way. Chosen: above the default
+/// of GuardLimits::min_singular_value, 0.02, below which a correction of the pose is refused.
+constexpr double kAtStation = 0.06, kOnTheWay = 0.04;
+constexpr double kPeak = 1.875;      // ratio of the highest speed of a Move to its mean speed
+constexpr double kNearby = 0.25;     // share of the range of a joint
+constexpr double kShortest_s = 0.1;  // of a move
+constexpr int kParts = 32;           // parts of a move in which the speed of the tool is checked
 
 bool well_between(const NominalArm& arm, const VectorXd& a, const VectorXd& b, int configuration) {
   for (int k = 1; k < kBetween; ++k) {

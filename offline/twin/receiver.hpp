@@ -31,10 +31,11 @@ Isometry3d applied(const Offset& offset, const Isometry3d& X_BD);
 /// Thread: one. Cost: fixed. Errors: by counters only.
 class Receiver {
  public:
+  /// Limits on what is applied, beside those of plumb-rt; docs/safety.md has the sentences.
   struct Settings {
-    double fresh_s = 0.1;
-    double most_m = 0.010;
-    double most_rad = 0.030;
+    double fresh_s = 0.1;     // longest age of a correction, from the sending of its target on
+    double most_m = 0.010;    // a larger correction is refused
+    double most_rad = 0.030;  // so is one that turns by more
     double slew_m_per_s = 0.03;
     double slew_rad_per_s = 0.1;
   };

@@ -11,7 +11,7 @@ namespace plumb::offline::twin {
 namespace {
 
 constexpr double kSizes = 0.1;  // 1 sigma of how much the size of an effect differs, relative
-constexpr double kLeast = 0.5;
+constexpr double kLeast = 0.5;  // of the size of the first arm
 
 void resize(HiddenEffect& effect, sim::Random& random) {
   const auto draw = [&](std::optional<double>& size) {
