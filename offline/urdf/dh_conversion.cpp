@@ -9,7 +9,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kNearParallel = 0.01;  // sine of the angle between neighbouring axes
-constexpr double kOnTheAxis_m = 1e-9;
+constexpr double kOnTheAxis_m = 1e-9;   // nearer points are on the axis, to rounding
 
 struct Link {
   double a = 0.0, alpha = 0.0, beta = 0.0;

@@ -20,13 +20,14 @@ struct JointAxis {
 
 struct DhArm {
   format::Chain chain;  // its forward kinematics equal those of the axes to rounding
-  std::vector<Transformd> behind_joint;  // P_i at zero, root frame: where link masses are expressed
+  /// The frame behind each joint at zero position, in the root frame. Link masses are stated in it.
+  std::vector<Transformd> behind_joint;
 };
 
-/// DH rows of an arm given by its axes and by the tip at zero. Frames lie on the common normals;
-/// where neighbours are nearer to parallel than 0.01 rad Hayati's beta takes the place of a distant
-/// normal [Hayati 1983]. What DH rows cannot express at the two ends of the arm goes to base and
-/// tool.
+/// DH rows of an arm given by its axes and by the pose X_RT of the tip at zero. Frames lie on the
+/// common normals. Where neighbouring axes are parallel to within 0.01 rad their common normal may
+/// be far away; there Hayati's beta is used instead [Hayati 1983]. What DH rows cannot express at
+/// the two ends of the arm goes to base and tool.
 DhArm to_dh(const std::vector<JointAxis>& axes, const Transformd& X_RT,
             format::Convention convention);
 

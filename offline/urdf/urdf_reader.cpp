@@ -26,7 +26,8 @@ namespace {
 
 constexpr double kParallelNext = 0.05;  // sine of the angle below which parallel_next is set
 constexpr double kGravity = 9.81;       // [m/s^2], as new cells have it
-constexpr int kDeepest = 100, kMostLinks = 2000, kMostAttributes = 100;
+constexpr int kDeepest = 100, kMostLinks = 2000,
+              kMostAttributes = 100;  // chosen: no robot has more
 
 Transformd to_transform(const urdf::Pose& pose) {
   double x = 0, y = 0, z = 0, w = 1;
@@ -200,8 +201,8 @@ class Reader {
          guess ? fmt::format("did you mean '{}'?", *guess) : tips_help());
   }
 
-  /// Of two joints that move one link the parser keeps the last, and what is behind the other one
-  /// is lost.
+  /// Refuses a link that is the child of two joints: the parser keeps only the last one, and the
+  /// links behind the other would be lost.
   void check_tree() {
     std::map<std::string, std::vector<std::string>> above;
     for (const auto& [name, joint] : tree_->joints_) above[joint->child_link_name].push_back(name);

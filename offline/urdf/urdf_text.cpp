@@ -16,8 +16,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kMostTurn_rad = 6.2832;   // 2 pi as people round it: of a rotation between links
-constexpr double kMostLimit_rad = 62.832;  // ten turns
+/// Larger angles look like degrees: rotations between links beyond one turn (2 pi as people round
+/// it), and joint limits beyond ten turns, which cables allow no arm.
+constexpr double kMostTurn_rad = 6.2832, kMostLimit_rad = 62.832;
 
 /// The end of the comment, CDATA section or instruction that begins at `at`; `at` itself for tags.
 std::size_t behind_no_tag(std::string_view text, std::size_t at) {
@@ -32,8 +33,8 @@ std::size_t behind_no_tag(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Calls `visit(tag, begin, end)` for every attribute: name of its element, and where its value
-/// stands in the text.
+/// Calls visit(tag, key, begin, end) for every attribute: the name of its element, its own name,
+/// and where its value begins and ends in the text.
 void each_attribute(std::string_view text,
                     const std::function<void(std::string_view, std::string_view, std::size_t,
                                              std::size_t)>& visit) {
@@ -67,7 +68,8 @@ std::string root_of(std::string_view text) {
   return "";
 }
 
-/// Elements and expressions that xacro replaces. A file that xacro wrote still declares its prefix.
+/// True if the text has elements or expressions that xacro replaces. The declaration of the prefix
+/// alone does not count: a file that xacro wrote keeps it.
 bool is_xacro(std::string_view text) {
   bool out = false;
   each_attribute(text, [&](auto tag, auto, std::size_t begin, std::size_t end) {
