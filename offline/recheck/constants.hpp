@@ -22,13 +22,15 @@ namespace plumb::offline::recheck {
 /// Typical size of a displacement: a millimetre and a milliradian, multiplied by one of the scales.
 /// arms.
 inline constexpr double kShift_m = 1e-3, kTurn_rad = 1e-3;
-/// From a bump that a tracker just sees to a tool that was exchanged. arms.
+/// Scales of the change of a joint's zero or link: from what a tracker just sees to a joint that
+/// was mounted anew. arms.
 inline constexpr std::array kScales = {0.1, 1.0, 10.0, 100.0};
-/// The same, to a tracker or an arm that was put somewhere else. arms.
+/// Scales of the motion of tool and base: up to another tool, or a tracker or an arm that was put
+/// somewhere else. arms.
 inline constexpr std::array kScalesOfPlacing = {0.1, 1.0, 10.0, 100.0, 1000.0};
-/// Of an effect, in its typical sizes. arms.
+/// Scales of the change of an effect, in its typical sizes. arms.
 inline constexpr std::array kScalesOfEffect = {0.1, 1.0, 10.0};
-/// Of a single reading, in the noise of one. arms.
+/// Scales of the error of a single wrong reading, in the noise of one. arms.
 inline constexpr std::array kScalesOfReading = {10.0, 100.0, 1000.0};
 /// RMS motion of the measured point by a usual change of an effect. arms.
 inline constexpr double kEffect_m = 1e-4;
@@ -38,7 +40,7 @@ inline constexpr double kEffectShare = 0.5;
 inline constexpr double kToolChanged = 0.25, kBaseChanged = 0.25, kJointsChanged = 0.4,
                         kReadingsWrong = 0.1;
 /// Shares of the kinds of change of one joint; those of effects stand in their descriptors. belief.
-inline constexpr double kOffset = 0.4, kBent = 0.2;
+inline constexpr double kOffset = 0.4, kBent = 0.2;  // encoder offset, bent link
 
 // Evidence.
 
@@ -87,7 +89,7 @@ inline constexpr std::array kLengths = {1e-3, 0.1, 0.2, 0.4, 0.8, 1.6};
 inline constexpr double kSamePose = 2e-3;
 /// Readings of the calibration that are compared with new ones. cost.
 inline constexpr std::size_t kMostNear = 500;
-/// Of the noise: what the model lacks does not matter if it is smaller. odds.
+/// What the model lacks does not matter if it is smaller than this share of the noise. odds.
 inline constexpr double kSmallShare = 0.1;
 
 // Gauss-Newton steps.

@@ -6,16 +6,16 @@
 
 namespace plumb::offline::recheck {
 
-/// Lines (readings.lines()) as one row a reading, shape (readings, 3), zero where an axis is
-/// missing.
+/// The lines of all readings as one row for each reading, shape (readings, 3), zero where an axis
+/// is not measured.
 Rows3 errors_of(const Readings& readings, const Eigen::VectorXd& lines);
 
 /// Errors of the readings [m], shape (readings, 3), each predicted by a refit of `changes` without
-/// it. A reading that was found to be off is judged as it is.
+/// it. The shift that was estimated for a single wrong reading is not taken off its error.
 Rows3 left_out_errors(const Readings& readings, const std::vector<Change>& changes,
                       const Judged& judged);
 
-/// Of all rows but these.
+/// Statistics of the errors of all rows but these.
 ErrorStats stats_of(const Rows3& errors, const std::vector<int>& leave_out);
 
 }  // namespace plumb::offline::recheck

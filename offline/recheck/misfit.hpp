@@ -21,7 +21,7 @@ struct Misfit {
   Eigen::MatrixXd covariance;  // (readings, readings) [m^2], of one axis
 };
 
-/// Of a coordinate, 1 sigma.
+/// The sizes of what the model lacks and of the noise, each as 1 sigma of a coordinate.
 struct MisfitSize {
   double lacks_m = 0.0;  // s
   double noise_m = 0.0;  // of a reading

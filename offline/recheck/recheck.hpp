@@ -9,7 +9,8 @@
 
 namespace plumb::offline::recheck {
 
-/// Which part of the measurement is another one on purpose: it is fitted anew and is no change.
+/// Parts of the measurement that were replaced on purpose: they are fitted anew and do not count as
+/// a change of the arm.
 struct Assumed {
   bool new_frame = false;   // the tracker stands elsewhere
   bool new_target = false;  // another reflector, or another place of it on the tool
@@ -39,10 +40,10 @@ struct Recheck {
   std::vector<Found> found;       // the strongest first; single readings are not among them
   std::vector<int> odd_readings;  // rows that contradict all others and were not used
   bool something_else = false;    // the readings are missed by more than the changes explain
-  double excess = 1.0;            // RMS of what is left, in expected ones
+  double excess = 1.0;            // RMS of what is left, over the RMS that is expected
   std::vector<Visibility> blind;  // what these poses would not have shown within `limit_m`
   double limit_m = 0.0;
-  int readings = 0, poses = 0;  // used; different ones
+  int readings = 0, poses = 0;  // readings that were used, and different poses among them
   ErrorStats then;              // held-out error of the run that is rechecked
   ErrorStats before;            // its error at the readings; frame and target as assumed
   ErrorStats after;             // each reading predicted by a refit without it
@@ -50,7 +51,7 @@ struct Recheck {
   double expected_m = 0.0;      // mean error that the run promises at these readings
   double control_m = 0.0;       // three standard deviations of that mean above it
   Rows3 predicted_M;            // of the readings, each by a refit without it [m]
-  bool keeps = true;            // something is decided: the verdict, or a part beside what is open
+  bool keeps = true;            // a run is worth keeping: the verdict or one of `found` is decided
   Calibration calibration;      // of the run, with what has changed refitted
 };
 

@@ -10,8 +10,8 @@
 
 namespace plumb::offline::recheck {
 
-/// Few poses of the calibration that, measured again, tell best what has changed. A pose that is
-/// repeated is worth more than a new one, because what the model lacks there has been seen.
+/// Few poses of the calibration that, measured again, tell best what has changed. They are better
+/// than new poses, because the error of the model at them is known.
 struct RecheckPlan {
   std::vector<int> rows;            // of the measurements, in their order
   std::vector<Visibility> visible;  // the changes that they would show, and from which size on

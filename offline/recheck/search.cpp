@@ -12,7 +12,7 @@
 namespace plumb::offline::recheck {
 namespace {
 
-const double kFound = -std::log(kFalseAlarm);
+const double kFound = -std::log(kFalseAlarm);  // least gain of ln evidence [nats]
 
 bool is_reading(const Change& change) { return change.part == Part::kReading; }
 
@@ -40,7 +40,7 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
       possible_(std::move(possible)),
       found_(std::move(assumed)),
       assumed_(found_.size()) {
-  // With three readings no single one can be identified as wrong.
+  // With three poses no single reading can be identified as wrong.
   if (readings.poses < kFewestForOddOnes) return;
   for (int i = 0; i < readings.rows.size(); ++i)
     possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
@@ -49,8 +49,8 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
 
 void Search::run() {
   last_ = nothing_ = judge_.judge(found_);
-  // What comes next depends on what was found alone: from a set that was there before it would go
-  // round for ever.
+  // Each round depends on the set of changes alone, so a set that was there before would repeat for
+  // ever.
   std::vector<std::vector<Change>> before;
   while (changes() < kMostChanges && !is_among(before, found_)) {
     before.push_back(found_);
@@ -100,8 +100,8 @@ bool Search::add_best() {
   return true;
 }
 
-/// Tries another change in place of each one found: the first to be found may only have imitated
-/// one that matters.
+/// Replaces each change by another one that explains the readings better beside the rest: a change
+/// that was found first may only have imitated the true one.
 void Search::exchange() {
   for (std::size_t k = assumed_; k < found_.size(); ++k)
     for (const auto& change : possible_) {

@@ -7,9 +7,10 @@
 
 namespace plumb::offline::recheck {
 
-/// The changes that explain some readings best, found one by one: a change is added if all possible
-/// ones together are 50 times as likely as nothing more; then each that was found is exchanged for
-/// a better one, and dropped if the others do without it.
+/// Finds the changes that explain some readings best, one by one. The best change is added if all
+/// possible ones together are 50 times as likely as no further one. Then each found one is
+/// exchanged if another explains the readings better in its place, and dropped if it is not needed
+/// any more.
 class Search {
  public:
   /// Keeps references to `judge` and `readings`. assumed: there from the beginning, and kept.
@@ -25,8 +26,8 @@ class Search {
   std::size_t assumed() const { return assumed_; }
   const std::vector<Change>& possible() const { return possible_; }  // single readings, too
   bool holds(const Change& change) const;
-  const Judged& last() const { return last_; }        // of what was found
-  const Judged& nothing() const { return nothing_; }  // of what was assumed
+  const Judged& last() const { return last_; }        // with what was found
+  const Judged& nothing() const { return nothing_; }  // with what was assumed alone
 
  private:
   int changes() const;

@@ -15,8 +15,8 @@ struct Visibility {
   double unseen_m = 0.0;
 };
 
-/// Of every change but those of single readings. `S`: as in Judged, of the readings with nothing
-/// changed; `own`: poses over which the arm works.
+/// The visibility of every change but those of single readings. `S`: as in Judged, with nothing
+/// changed; `own`: the poses over which motions are averaged.
 std::vector<Visibility> visibility(const std::vector<Change>& changes, const Measurements& rows,
                                    const Measurements& own, const ArmState& state,
                                    const Eigen::MatrixXd& S);
