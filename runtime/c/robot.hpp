@@ -12,7 +12,7 @@
 
 /// The definition of the opaque type of plumb.h.
 struct plumb_robot {
-  static constexpr std::uint64_t kMark = 0x31304d554c503a29;
+  static constexpr std::uint64_t kMark = 0x31304d554c503a29;  // arbitrary: "):PLUM01"
 
   std::uint64_t mark = kMark;  // recognises a pointer that is not to a robot
   std::unique_ptr<plumb::Robot> robot;

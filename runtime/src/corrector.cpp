@@ -35,7 +35,7 @@ constexpr double kMaxError = 1e6;
 /// the arm, such as the third direction of a planar arm. The bound also covers axes that rounded DH
 /// angles leave 1e-4 rad out of parallel.
 constexpr double kStructuralZero = 1e-3;
-constexpr int kSamples = 64;
+constexpr int kSamples = 64;  // poses; one that is regular is enough
 
 /// Near a singular pose the correction of a position alone may move the joints by this share of
 /// max_seed_distance, by the linearisation at the seed. Some room is left for what it neglects.
@@ -199,9 +199,10 @@ inline void Corrector::differentiate(const Chain& chain, const ChainAxes& moving
   if (joints() == 6) out.square.eliminate(out.J);
 }
 
-/// From the tip to its target. The rotation of six joints is the rotation vector up to the eighth
-/// order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2 y^3/35 + ..).
-/// Other arms may never reach the orientation and therefore need the exact rotation vector.
+/// The motion that takes the tip to its target. The rotation of six joints is the rotation vector
+/// up to the eighth order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2
+/// y^3/35 + ..). Other arms may never reach the orientation and therefore need the exact rotation
+/// vector.
 inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
                                     bool& turned_far) const noexcept {
   const Vector3 d = clamped(X_BD.p - X_BT.p, kMaxError) * per_length_;

@@ -32,7 +32,7 @@ namespace plumb {
 [[gnu::always_inline]] inline void CrispTrees::evaluate(const internal::SixJoints& u,
                                                         const double* looked_up,
                                                         Values& out) const noexcept {
-  constexpr std::int64_t kTerms = 7, kBounds = 2;
+  constexpr std::int64_t kTerms = 7, kBounds = 2;  // numbers of an affine leaf of six inputs
   const auto [i, j, k] = leaves(looked_up);
   const double* x = i.row(trees_[0].coefficients_, kTerms);
   const double* y = j.row(trees_[1].coefficients_, kTerms);

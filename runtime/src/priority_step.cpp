@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTiny = 1e-14;  // a squared length: singular values below 1e-7 are rounding errors
 
-constexpr int kFewJoints = 5;
+constexpr int kFewJoints = 5;  // arms with more joints use other steps
 
 /// Three rows of a Jacobian with at most five joints; columns beyond the last joint are zero.
 using Rows = Eigen::Matrix<double, 3, kFewJoints, Eigen::DontAlign>;

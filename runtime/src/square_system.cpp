@@ -101,7 +101,7 @@ void SquareSystem::solve(const TipMotion& r, JointSteps& z, TipMotion& left) con
   }
 }
 
-/// As solve(), for three motions at once, one in each lane.
+/// Like solve() for three unit translations at once, one in each lane.
 void SquareSystem::joints_per_translation(std::array<Lanes, 6>& out) const noexcept {
   const Lanes none{0.0, 0.0, 0.0, 0.0};
   std::array<Lanes, 6> left{Lanes{1.0, 0.0, 0.0, 0.0},

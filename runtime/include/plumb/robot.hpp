@@ -77,7 +77,8 @@ class Robot {
   /// Reads another model of the same robot and hands it to the cycle, which takes it at the
   /// beginning of its next step; the output moves to the new model at the slew limit, without a
   /// jump. After an error the running model stays in use.
-  // Checked as if they exchanged two values, which must not throw; they load a model, and may.
+  // clang-tidy takes a function of this name for one that exchanges two values and must not throw.
+  // These load a model, and may.
   // NOLINTBEGIN(bugprone-exception-escape)
   std::optional<LoadError> swap(const std::filesystem::path& file);
   std::optional<LoadError> swap(std::span<const std::byte> bytes);
@@ -90,12 +91,13 @@ class Robot {
   /// The model published last.
   const format::Model& model() const noexcept { return running_->model(); }
 
-  /// Steps the cycle once: takes the inputs and returns the corrected target.
+  /// Steps the cycle once: takes the inputs and returns the corrected target, as Cycle::step does.
+  /// Errors are told by the status of the output, which is finite whatever the inputs are.
   CycleOutput correct(const CycleInput& input) noexcept { return cycle_.step(input); }
 
-  /// Predicts the true pose of the tool at q [rad] or [m], in the context of the last cycle. q: the
-  /// controller's values of the robot's joints; further numbers are not read, and too few give
-  /// Status::kNotFinite.
+  /// Predicts the true pose of the tool in the base frame, in the context of the last cycle. q: the
+  /// controller's values of the robot's joints [rad] or [m]; further numbers are not read, and too
+  /// few give Status::kNotFinite.
   Prediction predict(std::span<const double> q) const noexcept {
     Angles angles;
     return cycle_.model().corrector().forward_model().predict(angles_at(q, angles),
@@ -118,6 +120,7 @@ class Robot {
 
   /// Counters that only grow, from loading on.
   const GuardCounters& counters() const noexcept { return cycle_.counters(); }
+  /// What was known in the last cycle beside the joint positions.
   const Context& context() const noexcept { return cycle_.context(); }
 
  private:

@@ -14,15 +14,17 @@ struct JointSteps;
 struct TipMotion;
 }  // namespace internal
 
-/// Where a seed comes from. An arm with more than six joints needs commanded joint positions.
+/// Where the joint positions of a seed come from. An arm with more than six joints needs commanded
+/// ones.
 enum class SeedKind : std::uint8_t { kCommanded, kLastSolution, kMeasured };
 
 struct Correction {
   Transformd X_BC;  // pose to send to the controller, N(q); the target itself if refused
   std::array<double, kMaxJoints> q{};  // joint positions that bring the true arm to the target
-  double residual_m = 0.0;             // remaining position error that the arm could remove
-  double residual_rad = 0.0;           // remaining orientation error, likewise
-  int steps = 0;                       // steps taken: kInverseSteps or kOtherSteps
+  /// Errors of position and orientation before the last step, as far as the arm can remove them.
+  /// The last step leaves far less, which is not computed.
+  double residual_m = 0.0, residual_rad = 0.0;
+  int steps = 0;  // steps taken: kInverseSteps or kOtherSteps
   Status status = Status::kNoModel;
 };
 
@@ -77,10 +79,10 @@ struct Correction {
 /// Refers to the model's memory: the model must outlive it.
 class Corrector {
  public:
-  static constexpr int kInverseSteps = 5;
+  static constexpr int kInverseSteps = 5;  // of six joints
   static constexpr int kOtherSteps = 7;
-  static constexpr double kMaxResidual_m = 1e-6;
-  static constexpr double kMaxResidual_rad = 1e-6;
+  /// Chosen: far below the noise of any tracker. One more step makes them smaller by orders.
+  static constexpr double kMaxResidual_m = 1e-6, kMaxResidual_rad = 1e-6;
 
   Corrector() = default;
   explicit Corrector(const format::Model& model) noexcept;

@@ -35,14 +35,14 @@ class Coupling {
 
   bool empty() const noexcept { return size_ == 0; }
 
-  /// In place: q[i] is the controller's value of joint i before, and its angle afterwards. q may
-  /// hold numbers of any kind and must reach to the last joint that is coupled.
+  /// In place: q[i] is the controller's value of joint i before, and its angle afterwards. q is any
+  /// container of numbers that reaches to the last coupled joint; it is not checked.
   template <class Q>
   void to_angles(Q&& q) const noexcept {
     for (std::size_t k = size_; k-- > 0;) q[pairs_[k].joint] += pairs_[k].ratio * q[pairs_[k].by];
   }
 
-  /// The inverse.
+  /// The inverse of to_angles(), in place.
   template <class Q>
   void to_values(Q&& q) const noexcept {
     for (std::size_t k = 0; k < size_; ++k) q[pairs_[k].joint] -= pairs_[k].ratio * q[pairs_[k].by];

@@ -17,10 +17,10 @@ namespace plumb {
 
 /// How long the cycle may use its last inputs, and when a joint counts as moved.
 struct CycleSettings {
-  double target_limit_s = 0.1;  // this is twelve lost frames of a 125 Hz bus
-  double joints_limit_s = 0.1;
+  double target_limit_s = 0.1;  // longest age of a target: twelve lost frames of a 125 Hz bus
+  double joints_limit_s = 0.1;  // longest age of joint positions
   ContextLimits context = {};
-  double dead_band = 5e-4;  // [rad]; for prismatic joints times length_scale_m
+  double dead_band = 5e-4;  // of LastMove [rad]; for prismatic joints times length_scale_m
 };
 
 enum class Arrival : std::uint8_t { kNothingNew, kArrived };
@@ -65,6 +65,8 @@ class Cycle {
   /// The slot must outlive the cycle.
   explicit Cycle(ModelSlot& slot, const CycleSettings& settings = {}) noexcept;
 
+  /// Runs one cycle with the inputs that have arrived since the last one. To be called once in
+  /// every cycle, also if nothing has arrived.
   CycleOutput step(const CycleInput& input) noexcept;
 
   /// From the next step on the correction ramps out to zero (kOff) or back in.
@@ -74,6 +76,7 @@ class Cycle {
   const GuardCounters& counters() const noexcept { return guard_.counters(); }
   const Context& context() const noexcept { return context_; }
   const LoadedModel& model() const noexcept { return *model_; }
+  /// Time since the last valid target and the last valid joint positions arrived [s].
   double target_age_s() const noexcept { return target_age_.value_s(); }
   double joints_age_s() const noexcept { return joints_age_.value_s(); }
 

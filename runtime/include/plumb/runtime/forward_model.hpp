@@ -55,11 +55,11 @@ class ForwardModel {
   Prediction predict(std::span<const double> q, const Context& context,
                      ChainFrames& frames) const noexcept;
 
-  /// The same in three parts. prepare() is needed once for a context. find_deviation() evaluates
+  /// predict() in three parts. prepare() is needed once for a context. find_deviation() evaluates
   /// effects and tree at q. locate() costs no more than the chain alone and uses a deviation that
-  /// was found at this pose or near it. p_BT: position of the tool; axes: of the chain, with the
-  /// tip's orientation before turned(). After a refusal all are zero and the orientation is the
-  /// identity.
+  /// was found at this pose or near it. p_BT: position of the tool [m]; axes: those of the chain,
+  /// whose tip still has to be rotated by turned(). After a refusal all are zero and the
+  /// orientation is the identity.
   void prepare(const Context& context, EffectSet::Workspace& out) const noexcept;
   void find_deviation(std::span<const double> q, EffectSet::Workspace& workspace,
                       Deviation& out) const noexcept;

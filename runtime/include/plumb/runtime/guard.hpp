@@ -60,7 +60,7 @@ class Guard {
   GuardOutput step(const Transformd& X_BD, const Correction& correction, double dt_s,
                    Inputs inputs = Inputs::kFresh) noexcept;
 
-  /// From the next step on another model of the same robot is used, under its own limits.
+  /// Takes over the limits of another model of the same robot, from the next step on.
   void swap(const format::GuardLimits& limits) noexcept;
 
   /// From now on the correction ramps out to zero (kOff) or in again (kOn).

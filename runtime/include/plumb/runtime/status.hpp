@@ -18,7 +18,7 @@ enum class [[nodiscard]] Status : std::int8_t{
     kNearSingular = -2,        // the nominal Jacobian's smallest singular value is under its limit
     kOtherConfiguration = -3,  // the solution lies in another configuration than the seed
     kFarFromSeed = -4,         // the solution is farther from the seed than allowed
-    kNotConverged = -5,        // the residual exceeds 1 um or 1 urad after the fixed steps
+    kNotConverged = -5,        // before the last step more than 1 um or 1 urad was left
     kSeedNotCommanded = -6,    // more than six joints need the commanded joints as seed
     kNoModel = -7,             // nothing was computed; the default value
     kStale = -8,               // no fresh target or joint state for too long

@@ -24,13 +24,14 @@ namespace plumb {
 /// Heap: none. Cost: fixed for a given model. Any thread. Does not refer to the model.
 class KnownRange {
  public:
-  static constexpr double kEdge = 0.035;       // [rad]; prismatic joints: times length_scale_m
-  static constexpr double kLeastStep = 0.035;  // likewise
+  /// [rad]; for prismatic joints times length_scale_m. Chosen: 2 deg.
+  static constexpr double kEdge = 0.035, kLeastStep = 0.035;
+  /// Chosen: the correction fades over several times the way on which it is still unchanged.
   static constexpr double kFadingSteps = 5.0;
 
   struct Found {
     bool outside = false;
-    double weight = 1.0;  // of the correction: 1 inside and near by, 0 far outside
+    double weight = 1.0;  // factor on the correction: 1 inside and near by, 0 far outside
   };
 
   KnownRange() = default;

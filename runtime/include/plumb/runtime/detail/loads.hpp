@@ -9,8 +9,8 @@
 
 namespace plumb {
 
-/// A vector in the base frame, stored so that one register reads it; the fourth number is
-/// arbitrary.
+/// A vector in the base frame, padded to four numbers so that one register reads it. The fourth
+/// number is arbitrary.
 struct alignas(32) Triple {
   Triple() = default;
   Triple(const Vector3& v) : numbers{v(0), v(1), v(2), 0.0} {}               // NOLINT: it is one
