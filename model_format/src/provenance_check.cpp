@@ -10,9 +10,9 @@ namespace {
 
 using Finding = std::optional<std::string>;
 
-constexpr std::size_t kMaxInputs = 64;  // input files that a model may name
-constexpr std::size_t kHashDigits = 64;
-constexpr double kMaxError_m = 100.0;
+constexpr std::size_t kMaxInputs = 64;   // input files that a model may name
+constexpr std::size_t kHashDigits = 64;  // of a SHA-256 in hexadecimal
+constexpr double kMaxError_m = 100.0;  // of a held-out figure; a larger one is no number of an arm
 constexpr double kRounding = 1.0 + 1e-9;  // by which a mean may exceed the maximum
 
 bool is_hash(const std::string& text) {

@@ -17,8 +17,9 @@
 namespace plumb::format::internal {
 namespace {
 
+// Larger numbers belong to no arm; they come from a wrong unit or a damaged file.
 constexpr double kMaxLength_m = 100.0;
-constexpr double kMaxAngle_rad = 4.0 * 3.14159265358979323846;
+constexpr double kMaxAngle_rad = 4.0 * 3.14159265358979323846;  // two turns
 constexpr double kMaxMass_kg = 1e5;
 constexpr double kMaxTwist = 1.0;          // [m] or [rad]
 constexpr double kMaxJointPosition = 1e4;  // [rad] or [m]: many turns

@@ -8,9 +8,9 @@ namespace plumb::format::internal {
 
 inline constexpr std::size_t kMaxText = 256;  // bytes
 
-/// Why a text cannot be shown on a terminal or in JSON: too long, not UTF-8 [RFC 3629],
-/// or with control characters. No reason if it can be shown; an empty text can. `what`: beginning
-/// of the sentence.
+/// Why a text cannot be shown on a terminal or in JSON: it is longer than `most` bytes, not UTF-8
+/// [RFC 3629], or has control characters. Empty if it can be shown, as an empty text can. `what`:
+/// the name of the text, with which the sentence begins.
 std::optional<std::string> unprintable(const std::string& text, const std::string& what,
                                        std::size_t most = kMaxText);
 

@@ -10,9 +10,12 @@ namespace {
 using Finding = std::optional<std::string>;
 
 constexpr double kMaxCorrection_m = 1.0;  // no correction of an arm is larger
-constexpr double kMinHalfWidth = 1e-9;    // it is a divisor
+/// Coefficients may be larger than the values of a leaf: where a leaf is small they cancel.
+constexpr double kMaxCoefficient_m = 1e3 * kMaxCorrection_m;
+constexpr double kMinHalfWidth = 1e-9;    // a half width is a divisor
 constexpr double kDirectionSlack = 1e-9;  // tolerance for the sum of a direction's |numbers|
-constexpr float kFarRegion = 4.0F;        // normalised; the trained box is -1 .. 1
+/// Limits of a region beyond this are no limits: normalised, and the trained box is -1 .. 1.
+constexpr float kFarRegion = 4.0F;
 
 Finding check_sizes(const Tree& tree, std::size_t joints) {
   const std::size_t leaves = tree.leaves(), nodes = tree.nodes.size();
@@ -36,7 +39,7 @@ Finding check_sizes(const Tree& tree, std::size_t joints) {
 
 Finding check_numbers(const Tree& tree) {
   for (double w : tree.coefficients)
-    if (!(std::abs(w) <= kMaxCorrection_m * 1e3)) return "a coefficient is out of range";
+    if (!(std::abs(w) <= kMaxCoefficient_m)) return "a coefficient is out of range";
   for (std::size_t i = 0; i + 1 < tree.bounds.size(); i += 2) {
     const double low = tree.bounds[i], high = tree.bounds[i + 1];
     if (!(low <= high && low >= -kMaxCorrection_m && high <= kMaxCorrection_m))
@@ -65,7 +68,8 @@ Finding check_directions(const Tree& tree, std::size_t joints) {
   return std::nullopt;
 }
 
-/// Parents precede their children, so one pass finds all depths and shows that there is no cycle.
+/// Finds the depths of all nodes in one pass, because every parent must precede its children. That
+/// also shows that there is no cycle, and that each node and leaf is reached once.
 Finding check_walk(const Tree& tree, std::size_t joints) {
   const std::size_t inner = tree.nodes.size(), leaves = inner + 1;
   std::vector<int> depth(inner, -1);

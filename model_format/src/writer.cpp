@@ -87,13 +87,15 @@ Offset<wire::Mechanics> add(Builder& b, const Mechanics& m) {
   return wire::CreateMechanics(b, b.CreateVectorOfStructs(links), m.payload_kg, c[0], c[1], c[2]);
 }
 
-/// True if the tree needs schema 2: an older reader would take it for a crisp affine one.
+/// True if the tree needs schema 2. A reader of schema 1 ignores what it does not know and would
+/// evaluate the tree as a crisp, affine one.
 bool needs_schema_2(const Tree& tree) {
   return !tree.blend_half_width.empty() || tree.degree != 1 || !tree.directions.empty() ||
          !tree.region.empty();
 }
 
-/// An older reader would take the controller's joint values for angles.
+/// The smallest schema that every reader of it evaluates correctly. Joint couplings need schema 3:
+/// a reader of an older one would take the controller's joint values for angles.
 unsigned schema_of(const Model& m) {
   if (!m.nominal.coupling.empty()) return 3;
   return std::any_of(m.trees.begin(), m.trees.end(), needs_schema_2) ? 2 : 1;
