@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No heap, no lock, no system call but those of the bus and the clock on the thread of the real
-// loop, with a CAN link attached.
+// With a CAN link the thread of the real loop allocates nothing, takes no lock and makes no system
+// calls but those of the bus and the clock.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -14,7 +14,7 @@
 namespace plumb::tests {
 namespace {
 
-/// A bus that does something forbidden at every look.
+/// A bus that does something forbidden whenever a message is asked for.
 class Planted final : public BusPort {
  public:
   Planted(BusPort& port, std::function<void()> violation)

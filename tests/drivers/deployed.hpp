@@ -95,7 +95,7 @@ class Deployed {
   std::filesystem::path folder;
 
  private:
-  /// A row that the nominal arm itself would show.
+  /// Writes a target at the nominal pose of its joints.
   static void write_target(std::ostream& out, double swing) {
     const std::vector<double> q{0.3 + swing, -1.0, 1.2, -0.4, 1.1 - swing, 0.2};
     const format::Pose pose = to_pose(Chain(arm().nominal).forward(q));

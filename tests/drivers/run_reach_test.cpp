@@ -74,7 +74,8 @@ TEST(RunReach, ModbusAndCanFdHaveRoomForAll) {
   EXPECT_EQ(start(folder).exit, 5);
 }
 
-/// plumb-rt as it runs from the folder, but for the cycle.
+/// All of a plumb-rt that runs from the folder except the cycle: no model that is handed over is
+/// ever taken.
 class Running {
  public:
   explicit Running(const Deployed& folder)
@@ -85,6 +86,7 @@ class Running {
   RtRan swap(const std::string& file) const {
     return plumb_rt({"swap", (folder_ / file).string(), "--dir", folder_.string()}, folder_);
   }
+  /// Whether a swap has handed a model to the cycle.
   bool published() const { return !slot_.settled(); }
 
  private:

@@ -10,8 +10,9 @@
 namespace plumb::offline {
 namespace {
 
-// Readings y = x theta + noise; theta is 0 or N(0, (t sigma)^2), and 1 / sigma^2 has the Gamma
-// density of `dof` degrees of freedom about 1 / variance. Integrated on a grid, not in closed form.
+// Readings y = x theta + noise of standard deviation sigma. theta is 0 or has the prior
+// N(0, (t sigma)^2), and 1 / sigma^2 has a Gamma prior with `dof` degrees of freedom about
+// 1 / variance. The evidence is integrated on a grid here, to check the closed form.
 constexpr double kDof = 4.0, kVariance = 0.8, kT = 1.5;
 const Eigen::VectorXd kX = (Eigen::VectorXd(5) << 1.0, -0.5, 2.0, 0.3, -1.2).finished();
 const Eigen::VectorXd kY = (Eigen::VectorXd(5) << 1.4, -0.1, 2.6, 0.9, -1.0).finished();

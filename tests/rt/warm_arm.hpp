@@ -9,7 +9,7 @@
 
 namespace plumb::tests {
 
-/// The arm growing by each of these temperatures.
+/// one_arm() with one effect of thermal growth of joint 2 for each of these temperature sensors.
 inline format::Model warm_arm(std::vector<std::string> sensors) {
   format::Model out = one_arm();
   for (auto& name : sensors)
