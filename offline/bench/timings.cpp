@@ -11,7 +11,7 @@
 namespace plumb::offline::bench {
 namespace {
 
-constexpr long kRounds = 10;
+constexpr long kRounds = 10;  // in which all kernels take turns
 constexpr long kCallsPerColdCall = 100, kMostColdCalls = 1000;
 constexpr std::size_t kWarmUp = 64;  // calls
 constexpr double kShortestReading_ns = 2e3;
