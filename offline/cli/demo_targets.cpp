@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMargin = 0.15;         // of the joint range, kept free at each end
 constexpr double kSmallestValue = 0.08;  // of the scaled Jacobian
-constexpr int kMostTries = 2000;
+constexpr int kMostTries = 2000;         // poses, most of which are refused
 
 std::vector<double> somewhere(const format::Chain& chain, Random& random) {
   std::vector<double> q;

@@ -57,7 +57,7 @@ std::string measured_name(std::string_view word) {
   return name == "joint" || name == "type" ? "" : name;
 }
 
-/// "a [furlong]", "a_mmm": what stands where a unit belongs and is none.
+/// Splits a heading such as "a [furlong]" or "a_mmm", in which no unit stands where one belongs.
 DhHeading with_bad_unit(std::string_view text) {
   const auto at = text.find_first_of("[(/,");
   const bool marked = at != text.npos;

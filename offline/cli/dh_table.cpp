@@ -38,12 +38,13 @@ bool may_be_empty(std::string_view name) {
   return name == "q_min" || name == "q_max" || name == "offset";
 }
 
-/// What the name stands for if nothing else tells.
+/// The quantity of a column by its name alone.
 Quantity usual_quantity(std::string_view name) {
   return name == "a" || name == "d" ? Quantity::kLength : Quantity::kAngle;
 }
 
-/// The same of texts that import can read, but that are no table of columns.
+/// The name of a format that a line shows to be no table of columns, also of those that plumb
+/// import reads; empty if it shows none.
 std::string_view other_text(std::string_view line) {
   if (const auto format = other_format(line); !format.empty()) return format;
   if (line.starts_with("|")) return "a table in Markdown";
@@ -192,7 +193,7 @@ class DhTableReader {
         columns_[k].cells.push_back(read_cell(k, line));
   }
 
-  /// Nothing if it is empty or wrong.
+  /// The value of a cell; nothing if the cell is empty, or wrong, which is reported.
   std::optional<DhValue> read_cell(std::size_t k, std::string_view line) {
     const std::string& header = table_.columns[k].header;
     const std::string written = text_of(cells_[k]);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kEighthTurn = std::numbers::pi / 4.0;
 constexpr double kRoundedPi = 5e-3;  // 1.57 for pi/2, or a calibrated 1.5687
+/// The largest length of a table looks like metres if it is below the first one, and like mm if it
+/// is above the second one.
 constexpr double kLongest_m = 5.0, kShortest_mm = 20.0;
 
 double largest_of(const std::vector<double>& numbers) {

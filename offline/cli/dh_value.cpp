@@ -20,7 +20,7 @@ void replace_all(std::string& text, std::string_view what, std::string_view by) 
     text.replace(at, what.size(), by);
 }
 
-/// In ASCII, without blanks.
+/// The text with Greek letters, signs and minus signs in ASCII and without blanks.
 std::string plain(std::string_view text, bool comma) {
   using Signs = std::pair<std::string_view, std::string_view>;
   constexpr std::array kSigns{Signs{"π", "pi"}, Signs{"θ", "theta"}, Signs{"ϑ", "theta"},

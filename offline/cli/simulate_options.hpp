@@ -42,7 +42,7 @@ struct SimulateOptions {
 
   void add_to(VerbOptions& verb);
 
-  /// Throws Failure (kUsage) for a share that is none.
+  /// The plan that the options describe. Throws Failure (kUsage) for a text that is no share.
   SimulationPlan plan(const Cell& cell) const;
 
   /// The same arm and session at other poses, read without noise.

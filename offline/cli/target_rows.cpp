@@ -9,8 +9,8 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr std::size_t kMostJointsWithoutCommand = 6;
-constexpr std::size_t kUsualRow = 400;  // bytes
+constexpr std::size_t kMostJointsWithoutCommand = 6;  // arms with more need commanded joints
+constexpr std::size_t kUsualRow = 400;                // bytes of a row that is written
 
 void check_seeds(const Targets& targets, const format::Chain& chain,
                  const std::vector<double>& start) {

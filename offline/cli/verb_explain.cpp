@@ -15,7 +15,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr std::size_t kWidest = 88;
+constexpr std::size_t kWidest = 88;  // characters; longer lines are hard to read
 
 std::size_t line_width() { return std::min(kWidest, screen_of(STDOUT_FILENO).columns - 2); }
 

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kUsualGap_s = 1.0;
+constexpr double kUsualGap_s = 1.0;  // between rows that are joined by time; chosen
 
 struct ImportArguments {
   std::vector<std::string> files, map, header;
