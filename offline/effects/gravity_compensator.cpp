@@ -7,8 +7,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kMostRatio = 10.0;  // a spring ten times as long as its lever hangs elsewhere
-constexpr double kUsualRatio = 0.5;
+constexpr double kMostRatio = 10.0;  // beyond it the spring is no balancing spring of this joint
+constexpr double kUsualRatio = 0.5;  // if the cell states none; the scan tries those below
 constexpr double kSpringRatios[] = {0.25, 0.5, 0.8};
 
 constexpr EffectOption kGravityCompensatorOptions[] = {

@@ -12,6 +12,7 @@
 namespace plumb::offline {
 namespace {
 
+// If the cell states none.
 constexpr double kUsualWaves = 20.0, kUsualSize_urad = 100.0, kUsualSlope = 1.0;
 
 static_assert(format::kMaxSeriesWaves == 64, "a rule and the explanation below state it");
