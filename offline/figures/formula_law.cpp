@@ -76,7 +76,7 @@ bool is_input(std::uint16_t code) {
   return format::taken(op) == 0 && op != FormulaOp::kLiteral && op != FormulaOp::kParameter;
 }
 
-/// A formula whose code is this, in the place of another one.
+/// The formula `effect` with other code, which has no parameters.
 format::Effect with_code(format::Effect effect, std::vector<std::uint16_t> code,
                          std::vector<double> literals) {
   effect.formula.code = std::move(code);
@@ -86,7 +86,8 @@ format::Effect with_code(format::Effect effect, std::vector<std::uint16_t> code,
   return effect;
 }
 
-/// The same, moving a joint by its value: what it moves then is the value.
+/// The formula as one that moves the first joint: the motion of that joint is the value of the
+/// formula.
 format::Effect as_value(format::Effect effect) {
   effect.formula.target = FormulaTarget::kJoint;
   effect.formula.joint = 0;

@@ -23,9 +23,9 @@ struct InformationGrowth {
   int measured = 0;  // poses that count already
 };
 
-/// For the next n poses, at the arm of the run as it is: each is the one of 800 random poses that
-/// tells most after those before it. Cost: derivatives at the measured poses and 1000 more, and
-/// poses * parameters^2. Throws Failure as `pose_pool`.
+/// The growth by the next n poses, linearised at the arm of the run. Each planned pose is the one
+/// of 800 random poses that tells most after those before it. Cost: derivatives at the measured
+/// poses and 1000 more, and poses * parameters^2. Throws Failure as `pose_pool`.
 InformationGrowth information_growth(const RunResults& results, int n);
 
 /// One SVG file, `width` px wide (320 to 4000).

@@ -23,6 +23,7 @@ using draw::Tone;
 constexpr int kPoses = 1500;
 constexpr int kMostDrawn = 600;  // in each view
 constexpr int kBands = 12;       // of a joint range
+/// A band of a joint is named if it has so many poses and so many times the mean share of refusals.
 constexpr double kFewestInRefusalBand = 20.0, kWellAbove = 1.5;
 constexpr double kSignMargin_px = 10.0;
 
