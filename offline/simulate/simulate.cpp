@@ -20,7 +20,7 @@ using sim::Vector3d;
 using sim::VectorXd;
 using sim::Visit;
 
-constexpr int kMostSorted = 20000;
+constexpr int kMostSorted = 20000;  // poses; sorting them to the nearest takes quadratic time
 
 void check(const Cell& cell, const SimulationPlan& plan) {
   const auto refuse = [](const std::string& message, const std::string& help) {

@@ -28,7 +28,8 @@ struct HiddenTruth {
   std::optional<std::uint64_t> like;  // seed of an arm of the same batch, whose errors of geometry
                                       // it shares in part
   std::optional<format::Pose> X_MB;   // base in the tracker frame; else the cell's, else random
-  std::optional<std::array<double, 3>> target_T;  // reflector in the tool frame; likewise
+  /// Reflector in the tool frame [m]; else the cell's, else random.
+  std::optional<std::array<double, 3>> target_T;
 };
 
 /// Which poses are measured, and in which order.

@@ -28,8 +28,8 @@ struct Visit {
 /// the whole last move.
 std::vector<Visit> drive(const RowsN& q, const VectorXd& start, double seconds_per_pose);
 
-/// Puts what is stated into the visits, one by one. Throws Failure (kUsage, E-SIM-PLAN) if there
-/// are not as many; none at all changes nothing.
+/// Puts each stated visit into the visit with the same index. An empty list changes nothing. Throws
+/// Failure (kUsage, E-SIM-PLAN) if the numbers of both differ.
 void put_stated(const std::vector<StatedVisit>& stated, std::vector<Visit>& visits);
 
 }  // namespace plumb::offline::sim
