@@ -18,8 +18,8 @@ namespace plumb::drivers {
 /// Heap: in the constructor. Thread: one.
 class WriteRefusals {
  public:
-  /// Chosen: as long as a correction may be old at the controller (InputSettings::limit_s), and
-  /// longer than the longest usual pause between two messages of a kind.
+  /// Chosen: the limit is as long as an input may be old (InputSettings::limit_s); and a message
+  /// that is written at all is written many times in kForget_ns.
   static constexpr std::int64_t kLimit_ns = 100'000'000, kForget_ns = 5'000'000'000;
 
   /// blocks: those that the client writes; the same indices are used below.
