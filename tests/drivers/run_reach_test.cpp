@@ -3,6 +3,7 @@
 // it runs.
 #include <gtest/gtest.h>
 
+#include "rt/model_swap.hpp"
 #include "rt/service.hpp"
 #include "tests/drivers/deployed.hpp"
 #include "tests/drivers/in_memory_port.hpp"
@@ -124,6 +125,20 @@ TEST(RunningModel, OfAnotherFileHasAnotherNumber) {
   EXPECT_NE(number("robot.plumb"), number("other.plumb"));
   EXPECT_EQ(number("robot.plumb"), number("robot.plumb"));
   EXPECT_LT(number("robot.plumb"), 1U << 23);
+}
+
+TEST(RunningModel, IsCalledByTheNameOfItsRobotOrElseByItsFile) {
+  const Deployed folder;
+  format::Model model = Deployed::arm();
+  for (const char* name : {"", "UR10 of cell 4"}) {
+    model.robot_name = name;
+    folder.write_model("robot.plumb", model);
+    const rt::Deployment deployment = rt::load_deployment(folder.folder);
+    rt::RunFacts facts;
+    rt::put_model(deployment, folder.folder / "robot.plumb", facts);
+    EXPECT_EQ(facts.model_name, *name == '\0' ? "robot.plumb" : name);
+    EXPECT_EQ(facts.model_sha256, sha256(read_file(folder.folder / "robot.plumb")));
+  }
 }
 
 format::Model with_sensors(const std::vector<std::string>& names) {
