@@ -14,7 +14,8 @@ constexpr std::uint16_t kOwnerRegister = 1288;
 /// CANopen's time stamp and its first process data. Lower identifiers win the bus, so the most
 /// urgent messages have the lowest. Everything the controller sends, except the context, can be
 /// read with one Modbus request of 125 registers.
-struct Place {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of its table
+struct DefaultMessage {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of its
+                         // table
   MessageKind kind;
   const char* name;
   Sender sender;
@@ -23,7 +24,7 @@ struct Place {  // NOLINT(clang-analyzer-optin.performance.Padding): in the orde
   double period_s;  // 0 means every cycle
 };
 
-constexpr Place kPlaces[] = {
+constexpr DefaultMessage kDefaultMessages[] = {
     {MessageKind::kController, "controller", Sender::kController, 0x110, 1096, 0.004},
     {MessageKind::kTarget, "target", Sender::kController, 0x118, 1048, 0.0},
     {MessageKind::kJoints, "joints", Sender::kController, 0x120, 1000, 0.0},
@@ -37,9 +38,9 @@ constexpr Place kPlaces[] = {
     {MessageKind::kSignature, "signature", Sender::kPlumb, 0x160, 1272, 0.200},
 };
 
-const Place& place_of(MessageKind kind) noexcept {
-  return *std::find_if(std::begin(kPlaces), std::end(kPlaces),
-                       [&](const Place& p) { return p.kind == kind; });
+const DefaultMessage& default_of(MessageKind kind) noexcept {
+  return *std::find_if(std::begin(kDefaultMessages), std::end(kDefaultMessages),
+                       [&](const DefaultMessage& p) { return p.kind == kind; });
 }
 
 std::vector<Signal> numbers(std::initializer_list<const char*> names) {
@@ -107,21 +108,21 @@ const MessageLayout* BusLayout::find(MessageKind kind) const {
   return found == messages.end() ? nullptr : &*found;
 }
 
-const char* name_of(MessageKind kind) noexcept { return place_of(kind).name; }
+const char* name_of(MessageKind kind) noexcept { return default_of(kind).name; }
 
 double si_per_unit(const std::string& unit) {
   return unit == "um" || unit == "urad" ? kMicro : 1.0;
 }
 
 MessageLayout default_message(MessageKind kind, int joints, double cycle_s, int temperatures) {
-  const Place& place = place_of(kind);
+  const DefaultMessage& usual = default_of(kind);
   return {.kind = kind,
-          .name = place.name,
-          .sender = place.sender,
+          .name = usual.name,
+          .sender = usual.sender,
           .signals = signals_of(kind, joints, temperatures),
-          .can_id = place.can_id,
-          .first_register = place.first_register,
-          .period_s = whole_cycles(place.period_s, cycle_s)};
+          .can_id = usual.can_id,
+          .first_register = usual.first_register,
+          .period_s = whole_cycles(usual.period_s, cycle_s)};
 }
 
 BusLayout default_layout(int joints, double cycle_s, int temperatures, CorrectionForm correction) {
@@ -129,10 +130,10 @@ BusLayout default_layout(int joints, double cycle_s, int temperatures, Correctio
   BusLayout out;
   out.correction = correction;
   out.owner_register = kOwnerRegister;
-  for (const Place& place : kPlaces) {
-    if (place.kind == MessageKind::kCommanded && joints <= 6) continue;
-    if (place.kind == (offset ? MessageKind::kCorrected : MessageKind::kOffset)) continue;
-    out.messages.push_back(default_message(place.kind, joints, cycle_s, temperatures));
+  for (const DefaultMessage& usual : kDefaultMessages) {
+    if (usual.kind == MessageKind::kCommanded && joints <= 6) continue;
+    if (usual.kind == (offset ? MessageKind::kCorrected : MessageKind::kOffset)) continue;
+    out.messages.push_back(default_message(usual.kind, joints, cycle_s, temperatures));
   }
   return out;
 }

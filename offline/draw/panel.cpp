@@ -209,24 +209,26 @@ void Panel::bar(double x0, double y0, double x1, double y1, const Paint& paint,
     ink_line({box.left, box.top}, {box.right, box.top});
 }
 
-void Panel::add_place(Point at, Anchor anchor, double words_width, double size,
-                      std::vector<Place>& places) const {
+void Panel::add_position(Point at, Anchor anchor, double words_width, double size,
+                         std::vector<LabelPosition>& positions) const {
   const double left = anchor == Anchor::kStart ? at.x : at.x - words_width;
   const Box box{left, at.y - size, left + words_width, at.y + 3.0};
   if (box.left < plot_.left || box.right > plot_.right || box.top < plot_.top ||
       box.bottom > plot_.bottom)
     return;
-  Place place{at, anchor, 0.0};
-  for (const Box& one : ink_) place.covered += box.overlaps(one);
-  for (const Box& one : areas_) place.covered += kAreaWeight * box.overlaps(one);
-  places.push_back(place);
+  LabelPosition position{at, anchor, 0.0};
+  for (const Box& one : ink_) position.covered += box.overlaps(one);
+  for (const Box& one : areas_) position.covered += kAreaWeight * box.overlaps(one);
+  positions.push_back(position);
 }
 
-bool Panel::put(std::vector<Place> places, const std::string& words, const TextStyle& style) {
-  std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.covered < b.covered; });
-  return std::any_of(places.begin(), places.end(), [&](const Place& place) {
-    return svg_.text(place.at, place.anchor, words, style);
+bool Panel::put(std::vector<LabelPosition> positions, const std::string& words,
+                const TextStyle& style) {
+  std::stable_sort(
+      positions.begin(), positions.end(),
+      [](const LabelPosition& a, const LabelPosition& b) { return a.covered < b.covered; });
+  return std::any_of(positions.begin(), positions.end(), [&](const LabelPosition& position) {
+    return svg_.text(position.at, position.anchor, words, style);
   });
 }
 
@@ -244,17 +246,17 @@ void Panel::levels_x(const std::vector<Level>& levels) {
   for (const Level& level : levels) {
     if (!is_inside(level)) continue;
     const double px = x_at(level.at), w = text_width(level.words, kTickSize);
-    std::vector<Place> places;
+    std::vector<LabelPosition> positions;
     for (double y = plot_.top + 14.0; y < plot_.bottom - 4.0; y += kLine) {
-      add_place({px + 4.0, y}, Anchor::kStart, w, kTickSize, places);
-      add_place({px - 4.0, y}, Anchor::kEnd, w, kTickSize, places);
+      add_position({px + 4.0, y}, Anchor::kStart, w, kTickSize, positions);
+      add_position({px - 4.0, y}, Anchor::kEnd, w, kTickSize, positions);
     }
-    for (Place& place : places) {
-      const double left = place.anchor == Anchor::kStart ? place.at.x : place.at.x - w;
+    for (LabelPosition& position : positions) {
+      const double left = position.anchor == Anchor::kStart ? position.at.x : position.at.x - w;
       for (const Level& other : levels)
-        if (x_at(other.at) > left && x_at(other.at) < left + w) place.covered += kLevelWeight;
+        if (x_at(other.at) > left && x_at(other.at) < left + w) position.covered += kLevelWeight;
     }
-    put(std::move(places), level.words,
+    put(std::move(positions), level.words,
         {.size = kTickSize, .paint = level.style.paint, .halo = kHalo});
   }
 }
@@ -273,16 +275,16 @@ void Panel::levels_y(const std::vector<Level>& levels) {
   for (const Level& level : levels) {
     if (!is_inside(level)) continue;
     const double py = y_at(level.at), w = text_width(level.words, kTickSize);
-    std::vector<Place> places;
+    std::vector<LabelPosition> positions;
     for (const double share : {1.0, 0.0, 0.75, 0.5, 0.25})
       for (const double offset : {-4.0, 13.0})
-        add_place({plot_.left + 4.0 + share * (plot_.width() - w - 8.0), py + offset},
-                  Anchor::kStart, w, kTickSize, places);
-    for (Place& place : places)
+        add_position({plot_.left + 4.0 + share * (plot_.width() - w - 8.0), py + offset},
+                     Anchor::kStart, w, kTickSize, positions);
+    for (LabelPosition& position : positions)
       for (const Level& other : levels)
-        if (y_at(other.at) > place.at.y - kTickSize && y_at(other.at) < place.at.y + 3.0)
-          place.covered += kLevelWeight;
-    put(std::move(places), level.words,
+        if (y_at(other.at) > position.at.y - kTickSize && y_at(other.at) < position.at.y + 3.0)
+          position.covered += kLevelWeight;
+    put(std::move(positions), level.words,
         {.size = kTickSize, .paint = level.style.paint, .halo = kHalo});
   }
 }
@@ -296,12 +298,12 @@ void Panel::label_at(double x, double y, const std::string& words) {
 bool Panel::label(double x, double y, const std::string& words, const TextStyle& style) {
   const Point p = at(x, y);
   const double w = text_width(words, style.size);
-  std::vector<Place> places;
+  std::vector<LabelPosition> positions;
   for (const double dy : {-7.0, 4.0, -20.0, 14.0, 27.0}) {
-    add_place({p.x + 7.0, p.y + dy}, Anchor::kStart, w, style.size, places);
-    add_place({p.x - 7.0, p.y + dy}, Anchor::kEnd, w, style.size, places);
+    add_position({p.x + 7.0, p.y + dy}, Anchor::kStart, w, style.size, positions);
+    add_position({p.x - 7.0, p.y + dy}, Anchor::kEnd, w, style.size, positions);
   }
-  return put(std::move(places), words, style);
+  return put(std::move(positions), words, style);
 }
 
 }  // namespace plumb::offline::draw

@@ -68,15 +68,15 @@ class Panel {
   void draw_x_ticks(const std::vector<Tick>& ticks);
   void draw_y_ticks(const std::vector<Tick>& ticks);
 
-  /// A place of a label and how much of the drawing it would cover there.
-  struct Place {
+  /// A position of a label and how much of the drawing it would cover there.
+  struct LabelPosition {
     Point at;
     Anchor anchor = Anchor::kStart;
     double covered = 0.0;
   };
-  void add_place(Point at, Anchor anchor, double words_width, double size,
-                 std::vector<Place>& places) const;
-  bool put(std::vector<Place> places, const std::string& words, const TextStyle& style);
+  void add_position(Point at, Anchor anchor, double words_width, double size,
+                    std::vector<LabelPosition>& positions) const;
+  bool put(std::vector<LabelPosition> positions, const std::string& words, const TextStyle& style);
   void ink_line(Point from, Point to);
 
   Svg& svg_;

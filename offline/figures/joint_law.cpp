@@ -36,14 +36,14 @@ JointLaw::JointLaw(const RunResults& results, int joint, Of of)
   rows.insert(rows.end(), results.fit.begin(), results.fit.end());
   std::sort(rows.begin(), rows.end());
   if (rows.empty() || effects_.empty()) return;
-  std::vector<Place> probes(std::min(kProbes, rows.size()));
+  std::vector<EvaluatedPose> probes(std::min(kProbes, rows.size()));
   for (std::size_t k = 0; k < probes.size(); ++k)
     put(rows[(2 * k + 1) * rows.size() / (2 * probes.size())], probes[k]);
   put(rows[rows.size() / 2], middle_);
   for (auto& place : probes) survey(place);
   for (int i = 0; i < effects_.size(); ++i) {
     double most = 0.0;
-    for (const Place& place : probes) most = std::max(most, std::abs(moved(i, place)));
+    for (const EvaluatedPose& place : probes) most = std::max(most, std::abs(moved(i, place)));
     if (most < kMoves) continue;
     const auto* known = find_descriptor(arm_.effects[static_cast<std::size_t>(i)].name);
     const bool own = is_own(i, probes);
@@ -55,35 +55,36 @@ JointLaw::JointLaw(const RunResults& results, int joint, Of of)
   }
 }
 
-void JointLaw::put(int row, Place& out) const {
+void JointLaw::put(int row, EvaluatedPose& out) const {
   const auto setup = static_cast<std::size_t>(setup_of(results_.measured, row));
   const auto& q = results_.measured.q;
   out.q.assign(q.row(row).data(), q.row(row).data() + q.cols());
   out.context = context_of(results_.measured, row, sensors_, X_MB_[setup]);
 }
 
-void JointLaw::survey(Place& out) const {
+void JointLaw::survey(EvaluatedPose& out) const {
   chain_.frames(out.q, out.frames);
   effects_.survey(out.frames, out.context, out.around);
 }
 
-double JointLaw::moved(int effect, const std::vector<double>& theta, const Place& at) const {
+double JointLaw::moved(int effect, const std::vector<double>& theta,
+                       const EvaluatedPose& at) const {
   Motion<double> motion;
   effects_.apply_one<double>(effect, theta, at.q, chain_, at.frames, at.around, motion);
   const double out = motion.dq[static_cast<std::size_t>(joint_)];
   return std::isfinite(out) ? out : 0.0;
 }
 
-double JointLaw::moved(int effect, const Place& at) const {
+double JointLaw::moved(int effect, const EvaluatedPose& at) const {
   return moved(effect, arm_.effects[static_cast<std::size_t>(effect)].parameters, at);
 }
 
-bool JointLaw::is_own(int effect, const std::vector<Place>& probes) const {
+bool JointLaw::is_own(int effect, const std::vector<EvaluatedPose>& probes) const {
   const auto j = static_cast<std::size_t>(joint_);
-  for (const Place& where : probes) {
+  for (const EvaluatedPose& where : probes) {
     double low = INFINITY, high = -INFINITY, most = 0.0;
-    for (const Place& other : probes) {
-      Place here = other;
+    for (const EvaluatedPose& other : probes) {
+      EvaluatedPose here = other;
       here.q[j] = where.q[j];
       here.context.known.direction[j] = where.context.known.direction[j];
       survey(here);
@@ -97,7 +98,7 @@ bool JointLaw::is_own(int effect, const std::vector<Place>& probes) const {
 }
 
 /// Those numbers of the effect that were fitted and move this joint.
-void JointLaw::add_numbers(Term& term, const std::vector<Place>& probes) const {
+void JointLaw::add_numbers(Term& term, const std::vector<EvaluatedPose>& probes) const {
   const Calibration& c = results_.run.fit.calibration;
   const auto& theta = arm_.effects[static_cast<std::size_t>(term.effect)].parameters;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
@@ -109,21 +110,21 @@ void JointLaw::add_numbers(Term& term, const std::vector<Place>& probes) const {
     const double step = std::max(kLeastStep, kStep * std::sqrt(std::max(0.0, c.covariance(k, k))));
     auto other = theta;
     other[place] += step;
-    const bool matters = std::any_of(probes.begin(), probes.end(), [&](const Place& at) {
+    const bool matters = std::any_of(probes.begin(), probes.end(), [&](const EvaluatedPose& at) {
       return moved(term.effect, other, at) != moved(term.effect, theta, at);
     });
     if (matters) term.numbers.push_back({place, k, step});
   }
 }
 
-double JointLaw::value(const Place& at) const {
+double JointLaw::value(const EvaluatedPose& at) const {
   double out = 0.0;
   for (const Term& term : terms_) out += moved(term.effect, at);
   return out;
 }
 
 /// sqrt(g^T C g), g being the slope of the motion by each number.
-double JointLaw::sigma(const Place& at) const {
+double JointLaw::sigma(const EvaluatedPose& at) const {
   std::vector<Eigen::Index> columns;
   std::vector<double> slopes;
   for (const Term& term : terms_) {
@@ -149,7 +150,7 @@ double JointLaw::sigma(const Place& at) const {
 
 double JointLaw::at_pose(int row) const {
   if (empty()) return 0.0;
-  Place here;
+  EvaluatedPose here;
   put(row, here);
   survey(here);
   return value(here);
@@ -157,7 +158,7 @@ double JointLaw::at_pose(int row) const {
 
 JointLaw::Value JointLaw::with_sigma(int row) const {
   if (empty()) return {};
-  Place here;
+  EvaluatedPose here;
   put(row, here);
   survey(here);
   return {value(here), sigma(here)};
@@ -165,7 +166,7 @@ JointLaw::Value JointLaw::with_sigma(int row) const {
 
 JointLaw::Value JointLaw::at(double q, int side) const {
   if (empty()) return {};
-  Place here = middle_;
+  EvaluatedPose here = middle_;
   here.q[static_cast<std::size_t>(joint_)] = q;
   if (side != 0) here.context.known.direction[static_cast<std::size_t>(joint_)] = side;
   survey(here);
@@ -174,7 +175,7 @@ JointLaw::Value JointLaw::at(double q, int side) const {
 
 bool JointLaw::has_sides() const {
   if (empty()) return false;
-  Place up = middle_, down = middle_;
+  EvaluatedPose up = middle_, down = middle_;
   up.context.known.direction[static_cast<std::size_t>(joint_)] = 1.0;
   down.context.known.direction[static_cast<std::size_t>(joint_)] = -1.0;
   survey(up), survey(down);

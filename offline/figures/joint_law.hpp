@@ -54,20 +54,20 @@ class JointLaw {
     int effect = 0;
     std::vector<Number> numbers;
   };
-  struct Place {
+  struct EvaluatedPose {
     std::vector<double> q;
     MeasuredContext context;
     ChainFrames frames;
     FittedEffects::Surroundings around;
   };
-  void put(int row, Place& out) const;
-  void survey(Place& out) const;
-  double moved(int effect, const std::vector<double>& theta, const Place& at) const;
-  double moved(int effect, const Place& at) const;
-  bool is_own(int effect, const std::vector<Place>& probes) const;
-  void add_numbers(Term& term, const std::vector<Place>& probes) const;
-  double value(const Place& at) const;
-  double sigma(const Place& at) const;
+  void put(int row, EvaluatedPose& out) const;
+  void survey(EvaluatedPose& out) const;
+  double moved(int effect, const std::vector<double>& theta, const EvaluatedPose& at) const;
+  double moved(int effect, const EvaluatedPose& at) const;
+  bool is_own(int effect, const std::vector<EvaluatedPose>& probes) const;
+  void add_numbers(Term& term, const std::vector<EvaluatedPose>& probes) const;
+  double value(const EvaluatedPose& at) const;
+  double sigma(const EvaluatedPose& at) const;
 
   const RunResults& results_;
   const format::Model& arm_;
@@ -78,7 +78,7 @@ class JointLaw {
   std::vector<std::optional<Parameter>> numbers_;  // of the covariance
   std::vector<Transformd> X_MB_;
   std::vector<Term> terms_;
-  Place middle_;  // a pose in the middle of the measured ones
+  EvaluatedPose middle_;  // a pose in the middle of the measured ones
 };
 
 }  // namespace plumb::offline::figures
