@@ -23,26 +23,26 @@ constexpr std::size_t kRoom = 24;           // columns for the last cell of a ro
 constexpr std::string_view kGood = "\x1b[1;32m", kWarning = "\x1b[1;33m", kError = "\x1b[1;31m",
                            kNote = "\x1b[1;36m", kPlainAgain = "\x1b[0m";
 
-struct Judgement {
+struct WordColour {
   std::string_view words;
   std::string_view colour;
 };
 
 /// Beginnings of a line that are coloured where the JSON gives no class. The first that fits
 /// counts, so longer ones stand before shorter ones.
-constexpr Judgement kJudgements[] = {
+constexpr WordColour kJudgements[] = {
     {"Good", kGood},           {"Not good enough", kError}, {"Something moved", kWarning},
     {"Complete", kGood},       {"Missing", kWarning},       {"Unknown", kWarning},
     {"Undecidable", kWarning}, {"Not usable", kError},      {"Not representative", kWarning},
     {"Usable, but", kWarning}, {"Usable", kGood},           {"Next:", kNote},
 };
 
-constexpr Judgement kMessages[] = {{"error", kError}, {"warning", kWarning}, {"note", kNote}};
+constexpr WordColour kMessages[] = {{"error", kError}, {"warning", kWarning}, {"note", kNote}};
 
 /// Colours of the classes of a verdict, as the JSON names them.
-constexpr Judgement kClasses[] = {{"good", kGood}, {"partly", kWarning}, {"bad", kError}};
+constexpr WordColour kClasses[] = {{"good", kGood}, {"partly", kWarning}, {"bad", kError}};
 
-std::string coloured(const std::string& line, std::span<const Judgement> table) {
+std::string coloured(const std::string& line, std::span<const WordColour> table) {
   for (const auto& [words, colour] : table)
     if (line.starts_with(words))
       return std::string(colour) + std::string(words) + std::string(kPlainAgain) +
@@ -207,14 +207,14 @@ Screen screen_of(int descriptor) {
 
 std::string laid_out(const std::string& text, const Screen& screen, const Verdict& verdict) {
   const std::string words = verdict.sentence.substr(0, verdict.sentence.find(':'));
-  std::vector<Judgement> judgements;
+  std::vector<WordColour> verdicts;
   for (const auto& [name, colour] : kClasses)
-    if (!words.empty() && name == verdict.found) judgements.push_back({words, colour});
-  judgements.insert(judgements.end(), std::begin(kJudgements), std::end(kJudgements));
+    if (!words.empty() && name == verdict.found) verdicts.push_back({words, colour});
+  verdicts.insert(verdicts.end(), std::begin(kVerdicts), std::end(kVerdicts));
   std::string out;
   for (const std::string& whole : with_parted_tables(lines_of(text), screen.columns)) {
     const std::string line = fitted(whole, screen.columns);
-    out += (screen.ink == Screen::Ink::kColour ? coloured(line, judgements) : line) + "\n";
+    out += (screen.ink == Screen::Ink::kColour ? coloured(line, verdicts) : line) + "\n";
   }
   if (!out.empty() && !text.ends_with('\n')) out.pop_back();
   return out;

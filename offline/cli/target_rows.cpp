@@ -64,7 +64,7 @@ RowStream::Computed TargetRows::compute(Table table, const show::PassThrough& co
 /// Rows with a joint state of their own do not depend on each other.
 std::function<void(std::string&)> TargetRows::solved(const Targets& targets,
                                                      const show::PassThrough& columns) {
-  Found found(corrector_, chain_, inputs_);
+  TargetTotals found(corrector_, chain_, inputs_);
   found.refusals.name_columns(targets.table);
   std::string text;
   text.reserve(static_cast<std::size_t>(targets.table.rows()) * kUsualRow);
@@ -96,8 +96,8 @@ void TargetRows::follow(const Targets& targets, const show::PassThrough& columns
 }
 
 void TargetRows::append(const Targets& targets, int row, std::span<const double> seed,
-                        const CorrectedRow& solved, const show::PassThrough& columns, Found& found,
-                        std::string& text) {
+                        const CorrectedRow& solved, const show::PassThrough& columns,
+                        TargetTotals& found, std::string& text) {
   const Status status = solved.correction.status;
   found.counts.add(status);
   if (refused(status)) found.refusals.add(solved.X_BD, seed, status, targets.quat_B.rows() > 0);

@@ -14,9 +14,9 @@
 
 namespace plumb::offline::cli {
 
-/// What was found out about targets, all of a file or those of a block.
-struct Found {
-  Found(const Corrector& corrector, const format::Chain& arm, KnownInputs unused)
+/// Totals over targets, all of a file or those of a block.
+struct TargetTotals {
+  TargetTotals(const Corrector& corrector, const format::Chain& arm, KnownInputs unused)
       : refusals(corrector, arm), inputs(std::move(unused)) {}
   StatusCounts counts;
   Refusals refusals;
@@ -26,7 +26,7 @@ struct Found {
   double largest_m = 0.0;  // of the corrections that were not refused
   double largest_rad = 0.0;
 
-  void add(const Found& more) {
+  void add(const TargetTotals& more) {
     counts.add(more.counts);
     refusals.add(more.refusals);
     inputs.add(more.inputs);
@@ -50,15 +50,15 @@ class TargetRows {
   /// For RowStream. Throws Failure (kInput, E-TARGET-...) without a joint state to start from.
   RowStream::Computed compute(Table table, const show::PassThrough& columns);
 
-  const Found& found() const { return found_; }
+  const TargetTotals& found() const { return found_; }
 
  private:
   std::function<void(std::string&)> solved(const Targets& targets,
                                            const show::PassThrough& columns);
   void follow(const Targets& targets, const show::PassThrough& columns, std::string& text);
   static void append(const Targets& targets, int row, std::span<const double> seed,
-                     const CorrectedRow& solved, const show::PassThrough& columns, Found& found,
-                     std::string& text);
+                     const CorrectedRow& solved, const show::PassThrough& columns,
+                     TargetTotals& found, std::string& text);
 
   Corrector corrector_;
   KnownInputs inputs_;  // without any row yet
@@ -66,7 +66,7 @@ class TargetRows {
   JointColumns joints_;
   const format::Chain& chain_;
   std::vector<double> start_, last_;
-  Found found_;
+  TargetTotals found_;
 };
 
 }  // namespace plumb::offline::cli

@@ -62,12 +62,12 @@ std::vector<double> start_of(const CorrectArguments& options, const format::Chai
   return out;
 }
 
-auto corrected_rows(const Found& found) {
+auto corrected_rows(const TargetTotals& found) {
   return found.counts.rows() - found.counts.refused_rows() - found.faded;
 }
 
 /// "Corrected 7 of 20 targets: 13 lie near a singular pose ... (metres in x_mm?)"
-std::string verdict(const Found& found) {
+std::string verdict(const TargetTotals& found) {
   const auto rows = found.counts.rows(), refused = found.counts.refused_rows();
   std::string out = fmt::format("Corrected {} of {} targets", corrected_rows(found), rows);
   if (found.faded > 0)
@@ -79,7 +79,7 @@ std::string verdict(const Found& found) {
   return out;
 }
 
-void judge(const Found& found, Outcome& outcome) {
+void judge(const TargetTotals& found, Outcome& outcome) {
   const auto rows = found.counts.rows(), refused = found.counts.refused_rows();
   if (found.limited > 0)
     outcome.remarks.push_back(
@@ -118,7 +118,7 @@ Json refused_json(const StatusCounts& counts) {
   return out;
 }
 
-void put_mistake(const Found& found, Json& result) {
+void put_mistake(const TargetTotals& found, Json& result) {
   if (const auto guess = found.refusals.likely_mistake(); !guess.empty())
     result["likely_mistake"] = guess;
   else
@@ -127,7 +127,7 @@ void put_mistake(const Found& found, Json& result) {
                                         : "no single mistake explains the refused targets");
 }
 
-std::string summary(const Found& found) {
+std::string summary(const TargetTotals& found) {
   std::string out = verdict(found);
   if (found.counts.refused_rows() < found.counts.rows())
     out += found.largest_rad > kTurned_rad
@@ -149,7 +149,7 @@ void correct(const CorrectArguments& options, const Globals& globals, Outcome& o
         return rows.compute(std::move(table), columns);
       },
       outcome);
-  const Found& found = rows.found();
+  const TargetTotals& found = rows.found();
   const auto all = found.counts.rows(), refused = found.counts.refused_rows();
   outcome.result = {{"rows", all},
                     {"corrected", corrected_rows(found)},

@@ -19,14 +19,14 @@ namespace plumb::offline {
 namespace {
 
 /// Columns of one effect at one joint among the fitted parameters.
-struct Part {
+struct EffectColumns {
   EffectEntry entry;
   std::vector<Eigen::Index> index;
 };
 
 /// The parts of the effects that were added, each as it was added.
-std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
-  std::map<std::pair<int, int>, Part> found;
+std::vector<EffectColumns> parts_of(const Cell& cell, const Calibration& calibration) {
+  std::map<std::pair<int, int>, EffectColumns> found;
   const auto& effects = calibration.state.arm.effects;
   std::vector<const EffectEntry*> entries;
   for (const auto& entry : cell.effects)
@@ -39,24 +39,25 @@ std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
     const int each =
         static_cast<int>(effect.parameters.size() / std::max<std::size_t>(1, effect.joints.size()));
     const int at = apart ? p.component / std::max(1, each) : -1;
-    Part& part = found[{p.joint, at}];
+    EffectColumns& part = found[{p.joint, at}];
     part.entry = *entries[p.joint];
     if (at >= 0) part.entry.joints = {effect.joints[at]};
     part.index.push_back(static_cast<Eigen::Index>(i));
   }
-  std::vector<Part> out;
+  std::vector<EffectColumns> out;
   for (auto& [key, part] : found) out.push_back(std::move(part));
   return out;
 }
 
 /// Inverse information of a part's parameters, those of the rest being unknown.
-Eigen::MatrixXd covariance_of(const Part& part, const WhitenedFit& whitened) {
+Eigen::MatrixXd covariance_of(const EffectColumns& part, const WhitenedFit& whitened) {
   const Eigen::MatrixXd half = whitened.half_information(part.index, Eigen::all);
   return half * half.transpose();
 }
 
 /// Evidence of a part over all else in the model, from the joint fit alone.
-double evidence_of(const Part& part, const WhitenedFit& whitened, const Calibration& calibration) {
+double evidence_of(const EffectColumns& part, const WhitenedFit& whitened,
+                   const Calibration& calibration) {
   const auto b = static_cast<Eigen::Index>(part.index.size());
   Eigen::VectorXd theta(b);
   for (Eigen::Index i = 0; i < b; ++i) {
@@ -82,7 +83,8 @@ double evidence_of(const Part& part, const WhitenedFit& whitened, const Calibrat
 }
 
 /// RMS motion of a part that nothing else in the model could make, whitened.
-double motion_of(const Part& part, const WhitenedFit& whitened, const Calibration& calibration) {
+double motion_of(const EffectColumns& part, const WhitenedFit& whitened,
+                 const Calibration& calibration) {
   Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));
   for (Eigen::Index i = 0; i < theta.size(); ++i)
     theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
