@@ -30,7 +30,8 @@ bool lists(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether two candidates are one finding, named more or less finely.
+/// Whether two candidates are names of the same finding, for instance a law and a finer law of the
+/// same cause.
 bool one_finding(const EffectEntry& a, const EffectEntry& b) {
   const EffectDescriptor &x = descriptor_of(a.name), &y = descriptor_of(b.name);
   if (!share_a_joint(a, b)) return false;
@@ -40,7 +41,7 @@ bool one_finding(const EffectEntry& a, const EffectEntry& b) {
          (a.joints == b.joints && (lists(x.same_motion, b.name) || lists(y.same_motion, a.name)));
 }
 
-/// Those near `first` in evidence that are another finding.
+/// The candidates that are another finding than `first` and hardly weaker in evidence.
 std::vector<const Found*> near(const std::vector<Found>& all, const Found& first) {
   std::vector<const Found*> out;
   for (const auto& other : all)

@@ -68,7 +68,7 @@ std::vector<CandidateNumber> numbers_of(format::Model model, const Regressor& re
     if (!regressor.after_rows.empty())
       model.effects[0].constants.front() = regressor.after_rows[static_cast<std::size_t>(c)] - 0.5;
     EffectParameter info = effect_parameter(model, 0, member);
-    // How large a wave may be does not depend on how the others fall off.
+    // The bound on the size of one wave is the same whatever the slope of the spectrum is.
     if (is_series(regressor.entry.name))
       info.typical = descriptor_of(regressor.entry.name).law->parameters.front().typical;
     const double value = size.theta(c) * regressor.typical(c);
@@ -79,8 +79,8 @@ std::vector<CandidateNumber> numbers_of(format::Model model, const Regressor& re
   return out;
 }
 
-/// Largest motion of the measured point at the fit poses, cleared of what the model can imitate
-/// [m].
+/// Largest motion of the measured point at the fit poses [m], less the part that parameters of the
+/// model can imitate.
 double largest_motion(const WhitenedFit& s, const Regressor& regressor,
                       const Eigen::VectorXd& theta) {
   Eigen::VectorXd moved = motion(s, regressor, theta).head(s.fit_lines);
@@ -91,7 +91,7 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
   return moved.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
 }
 
-/// What the evidence says of a candidate, and what it is.
+/// The candidate as reported: the effect, its numbers and its evidence; errors are still empty.
 Candidate described(const WhitenedFit& s, const Found& found) {
   const EffectInfo& info = *descriptor_of(found.entry.name).law;
   const Regressor regressor = regressor_of(s, found);
@@ -118,7 +118,7 @@ Candidate described(const WhitenedFit& s, const Found& found) {
   return out;
 }
 
-/// A candidate at another fit than that of its scan.
+/// The candidate scored at another fit than the one whose scan found it.
 RegressorScore score_of(const Scorer& scorer, const Found& found, const Regressor& regressor) {
   return is_series(found.entry.name) ? score_series(scorer, found.entry) : scorer.score(regressor);
 }
@@ -153,7 +153,8 @@ void add_alone(const WhitenedFit& plain, const Scorer& scorer, const Found& foun
   out.alone = held_out_error(scorer, regressor, scored, folds);
 }
 
-/// RMS over the fit poses of what the joint of a pattern turns, as fitted; 0 if it is no joint's.
+/// RMS over the fit poses of the fitted motion of the joint that a pattern belongs to; 0 if the
+/// pattern belongs to no joint.
 double joint_rms(const WhitenedFit& s, const Pattern& pattern) {
   double out = 0.0;
   const Scorer scorer(s);
@@ -170,7 +171,7 @@ double joint_rms(const WhitenedFit& s, const Pattern& pattern) {
   return out;
 }
 
-/// Whether one lists a joint of the other.
+/// Whether the two have a joint in common.
 bool overlap(const EffectEntry& a, const EffectEntry& b) {
   return std::any_of(a.joints.begin(), a.joints.end(), [&](int joint) {
     return std::find(b.joints.begin(), b.joints.end(), joint) != b.joints.end();
@@ -200,7 +201,7 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
   }
 }
 
-/// Held-out error of each with the best one already in.
+/// The held-out error of each candidate if the best one is already in the model.
 void add_after(const WhitenedFit& plain, const Scorer& alone,
                const std::vector<const Found*>& found, double regressors,
                std::vector<Candidate>& out) {

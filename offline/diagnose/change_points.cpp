@@ -20,7 +20,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kSamePayload_kg = 1e-6;
-constexpr double kIndependent = 1e-7;  // of a column beside the others
+constexpr double kIndependent = 1e-7;  // least share of a column that the others do not explain
 
 EffectEntry step_of(const MovingPart& part) {
   EffectEntry out{.name = change_point_effect(), .joints = {}, .options = {}, .place = {}};
@@ -51,8 +51,8 @@ Eigen::MatrixXd cleared(const WhitenedFit& s, Eigen::MatrixXd X) {
   return qr.basis(qr.rank());
 }
 
-/// A part that may have moved, and what is summed of its motions over the poses behind a cut. Its
-/// other moves, where it has some, belong to the model.
+/// A part that may have moved, with running sums of its motions over the poses behind a cut. If it
+/// has moved at other cuts as well, those moves belong to the model.
 class CutSearch {
  public:
   CutSearch(const WhitenedFit& s, const MovingPart& part)
@@ -98,14 +98,14 @@ class CutSearch {
   }
   double ln_bayes() const { return evidence(gram(), behind_.Xy, Q_, scale_).ln_bayes; }
 
-  /// What the motion behind the cut explains: as good as the evidence for finding the place, and
-  /// much cheaper.
+  /// Sum of squares that the motion behind the cut explains. It finds the same best cut as the
+  /// evidence and costs much less.
   double explained() const {
     return behind_.Xy.dot(
         with_prior(gram(), kPriorWidths.back(), scale_.variance).ldlt().solve(behind_.Xy));
   }
 
-  /// Of all these moves together.
+  /// Evidence of the moves at all these cuts together.
   double ln_bayes(const std::vector<int>& cuts) const {
     Eigen::MatrixXd X = columns(cuts);
     const auto U = s_.U.topRows(s_.fit_lines);
@@ -148,8 +148,8 @@ class CutSearch {
   double Q_;
 };
 
-/// Whether the payload changes at this pose: constant before and constant behind. The joints then
-/// yield under another torque, which must not pass for a slipped encoder.
+/// Whether the payload changes at this pose and is constant before and behind it. Under another
+/// payload the joints yield otherwise, which must not be taken for a slipped encoder.
 bool changes_payload(const WhitenedFit& s, const std::vector<Eigen::Index>& order,
                      Eigen::Index cut) {
   const auto payload = [&](Eigen::Index i) { return s.context[order[i]].known.payload_kg; };
@@ -159,7 +159,7 @@ bool changes_payload(const WhitenedFit& s, const std::vector<Eigen::Index>& orde
   return true;
 }
 
-/// The row before the cut; if rows between the two poses were not scanned, the middle of them.
+/// The row before the cut. If rows between its two poses were not scanned, the middle one of these.
 double row_before(const WhitenedFit& s, const std::vector<Eigen::Index>& order, int cut) {
   const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
   return std::floor(0.5 * (before + after + 1.0));

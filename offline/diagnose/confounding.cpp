@@ -25,13 +25,13 @@ Seen seen_of(const WhitenedFit& s, const Found& found) {
   out.X -= U * (U.transpose() * out.X).eval();
   out.motion = out.X * found.scored.theta;
   Eigen::MatrixXd gram = out.X.transpose() * out.X;
-  // Columns that repeat each other are common; a trace of the largest keeps this solvable.
+  // Columns are often linearly dependent. A small ridge keeps the equations solvable.
   gram.diagonal().array() += 1e-10 * gram.diagonal().maxCoeff();
   out.gram = SymmetricSolver(gram);
   return out;
 }
 
-/// Share of the motion of one that the columns of the other reproduce.
+/// Share of the squared motion of one effect that the columns of the other reproduce.
 double share_of(const Seen& moved, const Seen& by) {
   const Eigen::VectorXd c = by.X.transpose() * moved.motion;
   const double whole = moved.motion.squaredNorm();

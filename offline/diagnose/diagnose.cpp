@@ -30,25 +30,26 @@
 namespace plumb::offline {
 namespace {
 
-/// Below so many poses the reported error comes from folds around the whole selection. Of more the
-/// choice hardly depends on a fold, and choosing six times takes 5 s at 150 poses, 22 s at 500.
+/// With fewer poses than this, the whole selection is repeated without each fold (nested
+/// cross-validation). With more poses a fold hardly changes what is selected, and selecting six
+/// times takes 5 s at 150 poses, 22 s at 500.
 constexpr std::size_t kNestedBelow = 60;
 /// The same where waves were added: each has a frequency that was chosen among hundreds.
 constexpr std::size_t kNestedWithWavesBelow = 300;
 
-/// The cell without what is learnt: the tree comes after the physics.
+/// The cell without local trees: a tree is learnt after all physical effects are in the model.
 Cell physics_of(Cell cell) {
   std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
   return cell;
 }
 
-/// Readings that stand out of what the model leaves at the start, and the noise of one axis.
+/// Rows whose residual is an outlier under the model as given, and the noise of one axis.
 struct BadRows {
   std::set<int> rows;
   double sigma_m = 0.0;
 };
 
-/// Predictions of poses that had no say.
+/// Predictions of held-out poses.
 class HeldOut {
  public:
   HeldOut(const Measurements& measured, const Split& split)
@@ -66,14 +67,15 @@ class HeldOut {
     return norms;
   }
 
-  /// Rows that stand out, if they are single ones: as the verdict of a fit leaves them out.
+  /// Rows that are outliers, if there are only a few; the verdict of a fit leaves the same ones
+  /// out.
   std::set<int> bad_rows(double sigma_m) const {
     const auto far = far_rows(norms(), sigma_m);
     return are_single(far.size(), rows_.size()) ? far : std::set<int>();
   }
 
-  /// Without those of the bad rows that stand out here too: a pose that a model has made worse
-  /// counts, and so does one that it has put right.
+  /// Errors of all rows but those that are bad both at the start and here. So a pose that the model
+  /// has made worse counts, and a bad one that the model now predicts well counts too.
   ErrorStats stats(const BadRows& bad) const {
     std::vector<double> all = norms(), usual;
     const auto far = far_rows(all, bad.sigma_m);
@@ -96,13 +98,13 @@ class HeldOut {
   Rows3 predicted_;
 };
 
-/// All that a diagnosis works with.
+/// The data and settings that all steps of a diagnosis share.
 struct Work {
   Cell cell;
   const MeasurementFiles& measured;
   Split split;
-  std::vector<int> fit, held;  // held: for good, none with folds
-  std::vector<int> choosing;   // of fit: the readings that choose the effects
+  std::vector<int> fit, held;  // rows; `held` is empty where folds are held out in turn
+  std::vector<int> choosing;   // those of `fit` by which the effects are selected
   std::vector<Testable> testable;
   std::vector<std::string> not_testable;
   std::vector<Testable> excluded;  // the same with the reasons
@@ -118,7 +120,8 @@ struct Work {
   }
 };
 
-/// A list of effects, chosen beforehand, on poses that had no say.
+/// Held-out predictions of the model with this list of effects; the list itself is not selected
+/// anew in each fold.
 HeldOut held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
                     const Calibration& fitted) {
   HeldOut out(w.measured, w.split);
@@ -129,8 +132,7 @@ HeldOut held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
   return out;
 }
 
-/// Whether the selection itself runs again without each fold. Of more poses the evidence of nearly
-/// all chooses what the evidence of all does, and it would take six times as long.
+/// Whether the selection itself is repeated without each fold (see kNestedBelow).
 bool chosen_in_folds(const Work& w, const std::vector<ForwardStep>& steps) {
   if (w.split.folds == 0 || steps.empty()) return false;
   const bool waves = std::any_of(steps.begin(), steps.end(),
@@ -141,7 +143,7 @@ bool chosen_in_folds(const Work& w, const std::vector<ForwardStep>& steps) {
          (waves ? kNestedWithWavesBelow : kNestedBelow);
 }
 
-/// The whole selection once more around every fold.
+/// Held-out predictions where the effects are selected anew without each fold.
 HeldOut nested_held_out(const Work& w) {
   HeldOut out(w.measured, w.split);
   for (int k = 0; k < w.split.folds; ++k) {
@@ -159,7 +161,7 @@ HeldOut nested_held_out(const Work& w) {
   return out;
 }
 
-/// Against what a model with these many parameters cannot avoid.
+/// The held-out error compared with what noise and the number of fitted parameters make inevitable.
 std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
@@ -177,7 +179,7 @@ void tell_step(const DiagnosisRequest& request, std::size_t step) {
     request.tell(fmt::format("step {} of {}, {}", step + 1, request.apply ? 4 : 3, kSteps[step]));
 }
 
-/// An arm whose joints all turn has no law of a rail, whatever is measured.
+/// Whether the arm has joints to which the effect applies: laws of a rail need a sliding joint.
 bool arm_can_have(const Cell& cell, const std::string& effect) {
   const EffectDescriptor* law = find_descriptor(effect);
   return law == nullptr || law->joints != JointList::kSliding ||
@@ -189,7 +191,7 @@ bool judgeable(const WhitenedFit& whitened) {
   return static_cast<double>(whitened.fit_lines - whitened.rank) >= kFewestFreeLines;
 }
 
-/// What the first look says of the model and the readings.
+/// The facts that are known after the first scan.
 Facts facts_of(const Scan& look, const WhitenedFit& whitened, const Calibration& calibration) {
   const auto is_one = [&](const Found& f) {
     return !is_remainder(*whitened.cell, whitened, calibration, f);
@@ -214,11 +216,11 @@ void say_what_was_not_judged(const ForwardSelection& found, Diagnosis& out) {
        .help = "plumb explain W-DIAGNOSE-UNJUDGED"});
 }
 
-/// How many of the steps are kept. The readings of the fit chose them; the readings that had no say
-/// can only refuse: where the error on them leaps, or ends clearly above its smallest value, the
-/// steps behind that value are not taken.
+/// How many of the steps are kept. They were selected by the fitted readings; the held-out readings
+/// can only refuse them: where the held-out error leaps, or ends clearly above its minimum, the
+/// steps after the minimum are dropped.
 std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
-  // On the way there may be moves that only the effects behind them have put right.
+  // The error may rise for a while, until later effects bring it down again.
   const auto is_less = [](const Addition& a, const Addition& b) {
     return a.held.mean < b.held.mean;
   };
@@ -241,8 +243,8 @@ std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
   return sound ? added.size() : kept;
 }
 
-/// Whether the whole choice, made anew without each fold, makes poses that had no say worse: on
-/// average, or the worst of them so much that their RMS rises.
+/// Whether the selection, repeated without each fold, raises the held-out error: its mean, or by
+/// single large errors its RMS.
 bool rises_over(const ErrorStats& before, const ErrorStats& after) {
   return after.mean > before.mean || after.rms > before.rms;
 }
@@ -260,15 +262,15 @@ void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, 
        .help = "plumb explain W-DIAGNOSE-ROSE"});
 }
 
-/// The model at the end, as all readings see it.
+/// Refits the final model, selected by some of the readings, to all of them.
 void fit_to_all(const Work& w, std::vector<ForwardStep>& steps) {
   sharpen_steps(w.cell, w.measured, {w.choosing, w.fit}, steps);
   ForwardStep& last = steps.back();
   last.calibration = refitted(w.cell, w.measured, w.fit, last.effects, last.calibration);
 }
 
-/// The first candidate and the first effect that was added are one: what was refitted is shown for
-/// both, so that no sentence contradicts the table below it.
+/// If the first candidate is the first effect that was added, its errors are those of the refit, so
+/// that the sentence and the table below it show the same numbers.
 void take_over_first(Diagnosis& out) {
   if (out.added.empty() || out.candidates.empty()) return;
   Candidate& first = out.candidates.front();
@@ -326,7 +328,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     const Calibration& fitted = found.steps.back().calibration;
     out.repeatability = repeatability(with, w.measured, fitted.state, fitted.parameters,
                                       without_outliers(w.fit, fitted.outliers));
-    // As long as more is supported, what is left is no repeatability.
+    // If the model is full but more effects are supported, the scatter left is not repeatability.
     if (found.full) out.repeatability = {};
     out.floor =
         with_repeatability(noise_floor(w.cell, w.measured, fitted.state), out.repeatability);
@@ -347,7 +349,8 @@ bool far_above_the_noise(const Diagnosis& d) {
   return d.held_out_excess && d.held_out_excess->lack_of_fit();
 }
 
-/// What is known at the end: of the laws that were supported only the doubtful ones still count.
+/// The facts after the effects were added: supported laws are now in the model, so of these only
+/// the doubtful ones count.
 Facts facts_after(const Facts& before, const Diagnosis& d) {
   const auto not_shown = [](const Addition& a) { return names_what_is_not_shown(a.alternatives); };
   return {.judgeable = before.judgeable,
@@ -382,7 +385,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   for (const auto& answer : w.testable)
     if (answer.answer == Testable::Answer::kNo) {
       w.not_testable.push_back(answer.effect);
-      if (!arm_can_have(w.cell, answer.effect)) continue;  // nothing to measure, then
+      if (!arm_can_have(w.cell, answer.effect)) continue;  // no measurement could help
       out.not_testable.push_back(answer);
       w.excluded.push_back(answer);
     }

@@ -35,7 +35,7 @@ std::optional<Proposal> others_in_its_place(const Selection& s, const Found& fou
                   .instead = s.alternatives_in(without, better->effects.front())};
 }
 
-/// Takes out effects that lost their evidence to the last one.
+/// Removes effects that are no longer supported since the last one was added.
 void drop_weak(Selection& s) {
   const EffectEntry fresh = s.added.back().entry;
   while (const auto weak =

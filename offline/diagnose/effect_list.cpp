@@ -9,7 +9,8 @@
 namespace plumb::offline {
 namespace {
 
-/// Effects whose joints are a set; of the others they mean something together.
+/// Effects that apply to each of their joints separately. Any other effect is defined by all of its
+/// joints together.
 bool joints_add_up(const EffectEntry& entry) {
   const JointList list = descriptor_of(entry.name).joints;
   return !entry.joints.empty() && list != JointList::kOrderedPair &&

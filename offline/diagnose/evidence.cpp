@@ -25,7 +25,7 @@ double ln_bayes_at(double tau, const Eigen::ArrayXd& w, const Eigen::ArrayXd& v,
 Evidence evidence(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double Q,
                   const EvidenceScale& scale) {
   if (gram.rows() == 0) return {};
-  // Beyond here a NaN would rank first or last by chance.
+  // Comparisons with NaN are always false, so a NaN score would be ranked arbitrarily.
   if (!gram.allFinite() || !v.allFinite() || !std::isfinite(Q)) return {.ln_bayes = kImpossible};
   Eigen::ArrayXd w, u;
   if (gram.rows() == 1) {

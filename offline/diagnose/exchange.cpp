@@ -20,8 +20,8 @@ bool same_places(const Found& a, const Found& b) {
                     same_effect);
 }
 
-/// The same step with other moves, where these explain more: what else has been added since may
-/// have been one of them. Null where it stays as it is.
+/// The same step with other moves, if these explain more: an effect that was added later may be the
+/// true cause of one of the moves. Null if no other moves are better.
 const Found* moves_otherwise(const Selection& s, const JudgedModel& without, const Found& found) {
   if (!is_change_point(found.entry.name)) return nullptr;
   const Found* again = without.look.find(s.cell(), s.key(found.entry));
@@ -40,7 +40,7 @@ const Found* better_than(const Selection& s, const JudgedModel& without, const F
 }
 
 std::optional<Proposal> better_one(const Selection& s, const Found& found) {
-  // A step stays out for good once one of its moves was dropped; here all of them are tried again.
+  // A step is banned once one of its moves was dropped. Here all its moves are searched again.
   std::vector<std::string> banned = s.banned();
   if (is_change_point(found.entry.name)) std::erase(banned, s.key(found.entry));
   const JudgedModel without = s.without(found.entries(), banned);
@@ -52,15 +52,16 @@ std::optional<Proposal> better_one(const Selection& s, const Found& found) {
                   .instead = s.alternatives_in(without, *other)};
 }
 
-/// Effects of the model, several waves or moves of one part counted once: a move may have been part
-/// of any of them.
+/// Number of effects of the model; several waves or moves of one part count as one. A step is tried
+/// again whenever this number changes.
 std::size_t findings_in(const Selection& s) {
   std::set<std::string> out;
   for (const EffectEntry& e : s.cell().effects) out.insert(s.key(e));
   return out.size();
 }
 
-/// Waves are looked for again together (fresh_waves.hpp).
+/// Whether the exchange is to be tried. Not for waves: fresh_waves.hpp searches all of a joint
+/// again.
 bool is_due_for_exchange(Selection& s, const char* name, const Found& found) {
   const EffectEntry& entry = found.entry;
   const std::string key = s.key(entry);
@@ -103,7 +104,7 @@ std::optional<Proposal> one_of_usual_size(const Selection& s, const Found& found
                   .instead = s.alternatives_in(without, *other)};
 }
 
-/// One effect alone has none to be exchanged for.
+/// The added effects; none if there is only one, because nothing has been added since.
 std::vector<Found> if_several(const Selection& s) {
   return s.added.size() < 2 ? std::vector<Found>() : s.added;
 }

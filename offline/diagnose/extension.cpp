@@ -25,7 +25,7 @@ WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor,
                           : motions(whitened, smooth_part(whitened, regressor));
   const Eigen::VectorXd norm = X.topRows(fit).colwise().norm().cwiseMax(1e-300);
   X = X * norm.cwiseInverse().asDiagonal();
-  // Twice: what the first pass leaves of the model is rounding of large numbers.
+  // Gram-Schmidt twice: after one pass rounding leaves the columns not quite orthogonal.
   for (int pass = 0; pass < 2; ++pass)
     X -= whitened.U * (whitened.U.topRows(fit).transpose() * X.topRows(fit)).eval();
   const PivotedQr qr(X.topRows(fit));
@@ -38,7 +38,7 @@ WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor,
   out.U.conservativeResize(Eigen::NoChange, whitened.rank + rank);
   out.U.rightCols(rank) = fresh;
   out.rank = whitened.rank + rank;
-  out.scatter_nats = 0.0;  // the first effect of an explanation has paid them
+  out.scatter_nats = 0.0;  // already subtracted from the evidence of the first effect
   fold_joints(out);
   return out;
 }

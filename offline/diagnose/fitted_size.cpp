@@ -9,8 +9,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kTailSteps = 20;       // of the heavy tail, each with the weights of the step before
-constexpr double kSolvable = 1e-12;  // of the largest column; columns may repeat each other
+constexpr int kTailSteps = 20;       // of iteratively reweighted least squares
+constexpr double kSolvable = 1e-12;  // ridge, because columns may be linearly dependent
 
 }  // namespace
 
@@ -35,7 +35,7 @@ FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prio
     const double change = (next - theta).norm();
     theta = next;
     if (tail == PriorTail::kNormal || change <= 1e-6 * theta.norm()) break;
-    // Beyond one sigma the prior pulls with constant force.
+    // The prior is Huber's: beyond one sigma its gradient is constant.
     for (Eigen::Index i = 0; i < theta.size(); ++i)
       if (sigma(i) > 0.0) weight(i) = pull(i) / std::max(1.0, std::abs(theta(i)) / sigma(i));
   }

@@ -22,7 +22,8 @@
 namespace plumb::offline {
 namespace {
 
-/// The strongest waves come first.
+/// The candidate with no more waves or moves than the model has room for. Waves are sorted, the
+/// strongest first.
 Found as_many_as_fit(const Selection& s, Found found) {
   const std::size_t room = kMostEffects - std::min(kMostEffects, s.cell().effects.size());
   if (found.cycles.size() > room) found.cycles.resize(room);
@@ -62,7 +63,7 @@ bool revise_once(Selection& s, std::initializer_list<const Revision*> revisions)
 void select(Selection& s, ForwardSelection& out) {
   for (int step = 0; step < kMostSteps; ++step) {
     if (s.look().unknown() && !s.leaves_as_remainder(*s.look().pattern)) {
-      // A structure of no law comes last: it may be what a wrongly named effect leaves.
+      // Unknown structure is concluded last: it may be the residual of a wrongly named effect.
       if (revise_once(s, {&kLeftOutEnds, &kExchangeForSize, &kExchange, &kImitatingStep})) continue;
       out.unknown = unknown_structure(s.whitened(), *s.look().pattern);
       return;
@@ -83,7 +84,7 @@ bool same(const std::vector<EffectEntry>& a, const std::vector<EffectEntry>& b) 
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_effect);
 }
 
-/// A model on the way: most were fitted when they were the present one.
+/// The model after one step. Most were fitted already during the selection.
 Calibration calibration_of(const Selection& s, const std::vector<EffectEntry>& effects) {
   if (same(effects, s.cell().effects)) return s.calibration();
   for (const auto& model : s.seen())
@@ -111,7 +112,7 @@ std::vector<ForwardStep> steps(Selection& s) {
   }
   if (out.empty()) return out;
   if (!unless_refused([&] { s.refit_fully(); })) s.not_refitted_from_the_start();
-  // The models on the way are only looked at once all is chosen.
+  // The intermediate models are only fitted after the selection has ended.
   for (auto& step : out) step.calibration = calibration_of(s, step.effects);
   return out;
 }

@@ -10,7 +10,7 @@
 namespace plumb::offline {
 namespace {
 
-/// Whether the selection itself has put waves at that joint; the user's own stay as they are.
+/// Whether the selection has added waves at that joint; those given by the user are not changed.
 bool has_waves_of_its_own(const Selection& s, const EffectEntry& entry) {
   const auto waves = [&](const EffectEntry& e) {
     return is_wave(e.name) && e.joints == entry.joints;

@@ -14,8 +14,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::array kLengths = {0.05, 0.1, 0.2, 0.4, 0.8};  // of a ramp, shares of the series
-constexpr std::array kDecays = {0.05, 0.1, 0.2};             // to a third, shares of the series
+constexpr std::array kLengths = {0.05, 0.1, 0.2, 0.4, 0.8};  // of a ramp, as shares of the series
+constexpr std::array kDecays = {0.05, 0.1, 0.2};  // time constants, as shares of the series
 
 /// Place of every pose in the series, from 0 to 1.
 Eigen::ArrayXd places_of(const WhitenedFit& s) {

@@ -35,7 +35,8 @@ std::optional<Found> with_one_more(const Scorer& scorer, const Found& group,
   return best;
 }
 
-/// The group that grows as long as the evidence pays, however little a further joint moves.
+/// The group that grows as long as the evidence of a further joint exceeds its price, even if that
+/// joint explains little.
 Found by_evidence_alone(const Scorer& scorer, const std::vector<const Found*>& single) {
   Found out = *single.front();
   while (auto larger = with_one_more(scorer, out, single, -1.0)) out = std::move(*larger);

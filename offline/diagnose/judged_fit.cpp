@@ -32,8 +32,9 @@ Eigen::MatrixXd over_fit_lines(const WhitenedFit& s, Eigen::MatrixXd columns) {
   return columns.topRows(s.fit_lines);
 }
 
-/// What scatters beside a candidate. A series has so many columns that its prior decides what they
-/// take; so its motion is taken off as fitted.
+/// The lines from which the scatter of the joints beside a candidate is estimated. Of a series the
+/// fitted motion is subtracted instead of projecting out its columns: these are so many that only
+/// their prior limits what they explain.
 ScatterLines lines_beside(const WhitenedFit& s, const Found& found) {
   if (found.pattern.empty() && is_series(found.entry.name))
     return scatter_lines(extended(s, regressor_of(s, found), found.scored.theta));
@@ -124,7 +125,7 @@ JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testa
     beside = best_of(next.look);
   }
   if (best_of(out.look) != nullptr) return out;
-  // Where nothing holds its own, scatter explains it all.
+  // No candidate is supported beside the scatter, so scatter alone explains the residual.
   out = std::move(next);
   out.repeatability = alone;
   return out;

@@ -152,7 +152,7 @@ EffectEntry entry_of(const EffectDescriptor& effect, std::vector<int> joints = {
       .name = std::string(effect.name), .joints = std::move(joints), .options = {}, .place = {}};
 }
 
-/// Joints that turn, or those that slide.
+/// The revolute joints, or the prismatic ones.
 std::vector<int> joints_of(const WhitenedFit& s, bool turning) {
   std::vector<int> out;
   for (int j = 0; j < s.joints(); ++j)
@@ -174,7 +174,7 @@ std::vector<EffectEntry> neighbours(const WhitenedFit& s, const EffectDescriptor
   return out;
 }
 
-/// Where diagnose tries values of its options: those of the law, or of a joint that slides.
+/// The grids of option values to try: those of the law, or its own ones for a sliding joint.
 std::span<const GridAxis> grid_of(const WhitenedFit& s, const EffectEntry& entry) {
   const EffectDescriptor& effect = descriptor_of(entry.name);
   return effect.at_slide != nullptr && all_slide(*s.cell, entry) ? effect.at_slide->grid

@@ -55,7 +55,7 @@ Eigen::MatrixXd covariance_of(const EffectColumns& part, const WhitenedFit& whit
   return half * half.transpose();
 }
 
-/// Evidence of a part over all else in the model, from the joint fit alone.
+/// Evidence for a part beside all other parts of the model, from the common fit alone.
 double evidence_of(const EffectColumns& part, const WhitenedFit& whitened,
                    const Calibration& calibration) {
   const auto b = static_cast<Eigen::Index>(part.index.size());
@@ -82,7 +82,7 @@ double evidence_of(const EffectColumns& part, const WhitenedFit& whitened,
   return evidence(gram, v, whitened.Q + theta.dot(v), scale).ln_bayes;
 }
 
-/// RMS motion of a part that nothing else in the model could make, whitened.
+/// RMS whitened motion of a part that no other parameters of the model can reproduce.
 double motion_of(const EffectColumns& part, const WhitenedFit& whitened,
                  const Calibration& calibration) {
   Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));

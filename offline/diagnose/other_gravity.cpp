@@ -102,12 +102,13 @@ Eigen::MatrixXd along(const Load& load, const Vector3& d) {
   return out;
 }
 
-/// Sizes that explain most, with a little damping, so that what moves nothing stays 0.
+/// Least-squares sizes with the widest prior, so that a parameter without motion stays 0.
 Eigen::VectorXd solved(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double variance) {
   return SymmetricSolver(with_prior(gram, kPriorWidths.back(), variance)).solve(v);
 }
 
-/// The direction that explains most, by turns: sizes under a direction, the direction under sizes.
+/// The direction that explains most, by alternating least squares: sizes for a fixed direction,
+/// then the direction for fixed sizes.
 Direction direction_of(const Load& load, const Vector3& start, double Q,
                        const EvidenceScale& scale) {
   Eigen::Vector3d d = start;
@@ -194,7 +195,7 @@ const Found* first_of(const Scan& look) {
   return look.supported();
 }
 
-/// The most that explains these poses, whatever it is called.
+/// The highest evidence of any candidate, whether of a law or of a pattern.
 double most_nats(const Scan& look) {
   double out = 0.0;
   if (!look.library.empty()) out = std::max(out, look.library.front().ln_bayes());
@@ -206,7 +207,8 @@ bool leaves_noise(const WhitenedFit& s, double explained) {
   return (1.0 - explained) * times_noise(s) < at_noise(s);
 }
 
-/// What the fits themselves say, before any candidate: they differ where the cell has a load.
+/// Evidence for the other gravity from the two fits alone, without any candidate [nats]: they
+/// differ if the cell states a load.
 double fit_nats(const WhitenedFit& stated, const WhitenedFit& other) {
   const EvidenceScale scale = evidence_scale(stated);
   const double known = scale.dof * scale.variance;

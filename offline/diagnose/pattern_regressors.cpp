@@ -33,7 +33,7 @@ std::vector<Input> joint_inputs(const WhitenedFit& s) {
   return out;
 }
 
-/// From -1 to 1 over the series; anything that varies slowly.
+/// A slowly varying number, scaled to -1 ... 1 over the series.
 std::optional<Input> normalised(std::string name, std::string plainly, Eigen::ArrayXd value) {
   if (!known(value)) return std::nullopt;
   Input out{std::move(name), std::move(value), std::move(plainly)};
@@ -126,7 +126,7 @@ void visit_other_joints(const std::vector<Input>& q, const std::vector<int>& tur
     }
 }
 
-/// A joint that errs where two others meet.
+/// An error of one joint that depends on the product of functions of two others.
 void visit_pairs(const std::vector<Input>& q, const std::vector<int>& turning,
                  const RegressorVisitor& visit) {
   for (std::size_t x = 0; x < turning.size(); ++x)
@@ -199,7 +199,7 @@ int stop_before(const Measurements& measured, int row) {
   return before;
 }
 
-/// What happened just before a pose.
+/// Patterns by the stop before a pose.
 void visit_history(const WhitenedFit& s, const std::vector<Input>& q,
                    const std::vector<int>& turning, const RegressorVisitor& visit) {
   for (int j : turning) {

@@ -10,7 +10,7 @@
 namespace plumb::offline {
 namespace {
 
-/// Numbers that the new list of effects shares with the old one stay: a better start.
+/// Start values: parameters that the new list of effects shares with the old one keep their values.
 void keep_values(const ArmState& old, ArmState& fresh) {
   std::map<std::string, double> values;
   for (const auto& p : effect_parameters(old.arm)) values[p.name] = value_of(old, p);

@@ -12,7 +12,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kLeastVariance = 1e-12;  // noise-free data
-constexpr double kRidge = 1e-9;           // a fold may be all that says something about a parameter
+constexpr double kRidge = 1e-9;           // a parameter may be observable in one fold alone
 
 Products products_of_joint(const WhitenedFit& s, const Regressor& regressor, const Segment& at) {
   const auto S = regressor.columns.middleRows(at.begin, at.size());
@@ -97,7 +97,7 @@ Scorer::Scorer(const WhitenedFit& whitened)
   }
 }
 
-/// The column that its sign forbids most, or -1.
+/// The column that violates its sign constraint most, or -1.
 static Eigen::Index most_negative(const Regressor& regressor,
                                   const std::vector<Eigen::Index>& active,
                                   const Eigen::VectorXd& theta) {
@@ -157,8 +157,8 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
   return out;
 }
 
-/// Mean of what is then believed of the variance of a line: what is known of the noise, and what
-/// the regressor leaves of the residual.
+/// Posterior mean of the variance of a line, from the known noise and from the residual that the
+/// regressor leaves.
 double Scorer::variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v,
                              double width) const {
   const SymmetricSolver solver(with_prior(gram, width, scale_.variance));

@@ -11,7 +11,7 @@ bool is_due(Selection& s, const Revision& revision, const Found& subject) {
   return s.first_time(revision.name, s.key(subject.entry));
 }
 
-/// Whether the model is another one now.
+/// Whether the revision has changed the model.
 bool revised(Selection& s, const Revision& revision, const Found& subject) {
   std::optional<Proposal> proposal = revision.proposal(s, subject);
   if (!proposal) return false;

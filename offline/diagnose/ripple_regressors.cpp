@@ -14,7 +14,8 @@ double range_of(const WhitenedFit& s, int joint) {
   return std::min(travel_of(s, joint), kMostRange_rad);
 }
 
-/// Slower waves over the joint's range are its first two harmonics, or a straight line.
+/// Slower waves are not tried: over the range of the joint they look like its first two harmonics
+/// or a straight line.
 double first_ripple(double range) { return 2.0 + 2.0 * M_PI / range; }
 
 }  // namespace

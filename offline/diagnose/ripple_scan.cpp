@@ -51,7 +51,7 @@ bool apart(double wave, const std::vector<double>& others, double step) {
 
 double rounded(double cycles) { return std::round(100.0 * cycles) / 100.0; }
 
-/// The waves, and behind them how each would change with its frequency.
+/// The columns of the waves, followed by their derivatives with respect to the wave numbers.
 Regressor with_slopes(const WhitenedFit& s, const Regressor& waves, const Eigen::VectorXd& theta) {
   Regressor out = waves;
   const Eigen::Index count = waves.columns.cols() / 2;
@@ -102,7 +102,7 @@ void refine(const Scorer& scorer, Ripples& out, double step) {
     const Products all = scorer.products(with_slopes(scorer.whitened(), waves, now.theta));
     Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
     gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
-    // Two close waves hardly determine which of them should move: a prior keeps the steps small.
+    // The wave numbers of two close waves are strongly correlated: a prior keeps the steps small.
     const auto m = static_cast<Eigen::Index>(out.cycles.size());
     const double left = scorer.whitened().Q * (1.0 - now.explained) / scorer.scale().lines /
                         std::pow(0.25 * step, 2);

@@ -63,7 +63,8 @@ bool is_out(const WhitenedFit& whitened, const std::vector<std::string>& banned,
          (!is_wave(entry.name) && is_in_a_series(whitened, entry));
 }
 
-/// Waves of one joint as one candidate. Each of them was searched for, so each pays.
+/// Waves of one joint as one candidate. The evidence is lowered by the price of the search for each
+/// wave.
 std::optional<Found> found_ripples(const Scorer& scorer, Ripples waves, double paid) {
   const bool in_series = has_series_at(scorer.whitened(), waves.joint);
   if (in_series)
@@ -147,7 +148,8 @@ class Collector {
   const std::vector<std::string>& banned_;
 };
 
-/// At every joint with an uneven gear the law of this joint alone that says most.
+/// For every joint at which a law of an uneven gear is supported: the law of that joint alone with
+/// the highest score, whatever its cause.
 std::map<int, const Found*> best_at_joints(const std::vector<Found>& library) {
   std::map<int, const Found*> best;
   std::set<int> uneven;
@@ -182,16 +184,16 @@ std::optional<Found> series_at(const Scorer& scorer, const std::vector<int>& joi
   return out;
 }
 
-/// Whether a series of waves takes the place of what says most about its joint. Several single
-/// waves make way for it as soon as it is ahead; a law that says it in fewer numbers keeps its name
-/// unless the series also explains clearly more.
+/// Whether a series of waves replaces the best law of its joint. Several single waves are replaced
+/// as soon as the series has more evidence; a law with fewer parameters is kept unless the series
+/// also explains clearly more.
 bool takes_the_place(const Found& series, const Found& best) {
   if (best.cycles.size() >= kFewestForSeries) return series.score > best.score;
   return series.score > best.score + kAhead_nats &&
          series.scored.explained > best.scored.explained + kAhead_share;
 }
 
-/// One series of waves at every joint where, alone, it says more than any law of that joint does.
+/// One series of waves at every joint where it has more evidence than any law of that joint.
 std::optional<Found> found_series(const Scorer& scorer, const std::vector<Found>& library,
                                   double paid) {
   const WhitenedFit& s = scorer.whitened();
@@ -209,7 +211,7 @@ std::optional<Found> found_series(const Scorer& scorer, const std::vector<Found>
   return out;
 }
 
-/// Largest value of the refined option for which the entry is still the law that it is named after.
+/// Largest value of the refined option; beyond it the law degenerates into another one.
 double most_of(const WhitenedFit& whitened, const EffectEntry& entry,
                const Refinement& refinement) {
   return refinement.kind == Refinement::Most::kOfLargestTorque
@@ -253,7 +255,7 @@ void refine(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
   }
 }
 
-/// Refinement comes to numbers with many digits; nobody wants them in a cell file.
+/// Rounds the refined option to few digits, because it is written into the cell file.
 void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
   const Refinement* refinement = refinement_of(*whitened.cell, found.entry);
   if (refinement == nullptr) return;
@@ -279,8 +281,8 @@ std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& 
   return out;
 }
 
-/// Fast waves, in place of the slow ones of the same joint where they explain more. They alone pay
-/// for their search: it is made only when all else has failed.
+/// Fast waves; they replace the slow ones of the same joint where they explain more. Only they pay
+/// the price of their search, because it is made only when nothing else explains the residual.
 void add_fast_waves(const Scorer& scorer, const std::vector<std::string>& banned, Scan& out) {
   const WhitenedFit& whitened = scorer.whitened();
   int tried = 0;

@@ -126,9 +126,9 @@ SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
   return {prior, gain.ln_bayes, std::sqrt(gain.after / n)};
 }
 
-/// Whether a gear may be expected to have such waves. Where poses leave a range of the joint out,
-/// nothing but the prior holds the series, so a wide one must not be chosen for what it explains
-/// elsewhere.
+/// Whether waves of this size are plausible for a gear. Within a range of the joint without poses
+/// only the prior limits the series, so a wide prior must not be chosen for what the series
+/// explains elsewhere.
 bool is_expected(const SeriesEvidence& e) { return e.prior.ratio * e.scatter <= kLargestWave_rad; }
 
 /// ln of the mean of B over the grid, and the best prior of it.
@@ -172,7 +172,7 @@ SeriesEvidence refined_prior(const SeriesSums& sums, SeriesEvidence best) {
   return best;
 }
 
-/// RMS whitened motion of a joint per radian: what the size of a prior is measured by.
+/// RMS whitened motion of a joint per radian: the unit of the width of a prior.
 double lever_of(const WhitenedFit& s, const std::vector<int>& joints) {
   double sum = 0.0;
   for (const int joint : joints)
@@ -180,7 +180,7 @@ double lever_of(const WhitenedFit& s, const std::vector<int>& joints) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, joints.size())));
 }
 
-/// The joint that the series can best do without, and how much evidence it adds.
+/// The joint that adds the least evidence to the series, and that evidence.
 std::pair<int, double> weakest(const SeriesSums& sums, const SeriesEvidence& all) {
   std::pair<int, double> out{-1, std::numeric_limits<double>::infinity()};
   for (const int joint : sums.joints) {
@@ -245,7 +245,8 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   const Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
   for (Eigen::Index c = 0; c < all.Xy.size(); ++c) out.active.push_back(c);
   const EvidenceScale scale = scorer.scale();
-  // The scatter that is left decides how much the prior weighs, and that how much is left.
+  // Fixed-point iteration: the weight of the prior depends on the scatter that is left, and that
+  // scatter on the weight.
   double left = s.Q / scale.lines;
   for (int turn = 0; turn < 4; ++turn) {
     const Cholesky llt(with_prior(gram, 1.0, left));

@@ -11,7 +11,7 @@
 namespace plumb::offline {
 namespace {
 
-/// How far a place may be from where it was found, in gaps between readings that chose.
+/// How far a cut may move from where it was found, in gaps between the readings used for selection.
 constexpr Eigen::Index kGapsAway = 5;
 
 std::vector<double> places_of(const ForwardStep& step) {

@@ -33,8 +33,8 @@ bool gravity_turns_joint(const EffectDescriptor& effect) {
          effect.name == effects::GravityCompensator::kInfo.name;
 }
 
-/// Laws of which the pose decides, and nothing else, how the arm errs: what a load does to an arm
-/// of unknown weights may look like any of them.
+/// Laws whose error depends on the pose alone. The deformation of an arm of unknown weights may
+/// look like any of them.
 bool depends_on_pose_alone(const EffectDescriptor& effect) {
   return effect.law != nullptr && !is_wave(effect.name) && !is_series(effect.name) &&
          (effect.law->needs & ~(kNeedsMasses | kNeedsTracker)) == 0;
@@ -154,7 +154,7 @@ class Together {
   Eigen::VectorXd v_;
 };
 
-/// The columns of a candidate on other poses than those it was found on.
+/// The columns of a candidate at other poses than those at which it was found.
 Regressor regressor_there(const WhitenedFit& s, const Found& found) {
   if (found.pattern.empty()) return regressor_of(s, found);
   Regressor out;
@@ -165,8 +165,8 @@ Regressor regressor_there(const WhitenedFit& s, const Found& found) {
   return out;
 }
 
-/// Explanations by laws beside the joints: each alone, and in the place of several joints that
-/// yield also two of them, or one of them and a joint.
+/// Explanations by laws that do not belong to joints: each law alone; and where several joints
+/// yield, also two such laws together, or one such law and one joint.
 std::vector<std::vector<std::size_t>> explanations(const Together& all, std::size_t joints,
                                                    std::size_t laws, bool in_pairs) {
   std::vector<std::vector<std::size_t>> out;

@@ -121,8 +121,8 @@ Eigen::VectorXd clear_residual(WhitenedFit& s) {
 
 namespace {
 
-/// The parameters, and the first waves of every series: what a smooth law could be mistaken for.
-/// The other waves of a series are held by their prior and do not look like any law.
+/// The parameters and the first waves of every series, because a smooth law may be confounded with
+/// them. The other waves of a series resemble no law, and their prior limits them.
 std::vector<Parameter> with_smooth_waves(const ArmState& state, std::vector<Parameter> parameters) {
   for (const auto& series : series_numbers(state.arm))
     for (int k = 0; k < std::min(series.count, static_cast<int>(2 * kSmoothWaves)); ++k)
