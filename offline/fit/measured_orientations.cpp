@@ -157,10 +157,10 @@ double points_error(const ArmState& state, const Measurements& measured) {
   return median({each.begin(), each.end()});
 }
 
-class OrientationJudge {
+class OrientationTest {
  public:
-  OrientationJudge(const Cell& cell, const Measurements& measured,
-                   const std::vector<OrientationInterpretation>& others)
+  OrientationTest(const Cell& cell, const Measurements& measured,
+                  const std::vector<OrientationInterpretation>& others)
       : cell_(cell),
         measured_(measured),
         others_(others),
@@ -339,7 +339,7 @@ MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& me
   unjudged.kind = Kind::kUnjudged;
   unjudged.stated = cell.measurement.sigma_rad.has_value();
   if (measured.size() < kFewestJudged) return unjudged;
-  return OrientationJudge(cell, measured, others).judge();
+  return OrientationTest(cell, measured, others).judge();
 }
 
 MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& measured) {

@@ -57,7 +57,7 @@ std::vector<int> judged_rows(int size) {
   return out;
 }
 
-bool undecided(const Found& found) {
+bool undecided(const FoundChange& found) {
   return std::any_of(found.alternatives.begin(), found.alternatives.end(),
                      [](const Alternative& a) { return a.behind_nats < kUndecided && a.matters; });
 }
@@ -112,10 +112,10 @@ std::vector<Alternative> alternatives_to(const Judge& judge, const Search& searc
   return out;
 }
 
-Found described(const Judge& judge, const Search& search, std::size_t k, const ArmState& extended,
-                const Measurements& own, double tolerance_m) {
+FoundChange described(const Judge& judge, const Search& search, std::size_t k,
+                      const ArmState& extended, const Measurements& own, double tolerance_m) {
   const Judged& last = search.last();
-  Found out{.change = search.found()[k]};
+  FoundChange out{.change = search.found()[k]};
   std::vector<Change> others = search.found();
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
   const Judged without_it = judge.judge(others);
@@ -175,7 +175,7 @@ void prefer_placing(const Judge& judge, const Measurements& own, double toleranc
 }
 
 /// The changes that a new run can keep: assumed ones, single readings, and those that were decided.
-std::vector<Change> kept_changes(const Search& search, const std::vector<Found>& found) {
+std::vector<Change> kept_changes(const Search& search, const std::vector<FoundChange>& found) {
   std::vector<Change> out = search.found();
   for (const auto& one : found)
     if (undecided(one)) std::erase_if(out, [&](const Change& c) { return same(c, one.change); });
@@ -208,7 +208,7 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
     else
       out.found.push_back(described(judge, search, k, extended, poses, cell.tolerance_m));
   std::sort(out.found.begin(), out.found.end(),
-            [](const Found& a, const Found& b) { return a.ln_bayes > b.ln_bayes; });
+            [](const FoundChange& a, const FoundChange& b) { return a.ln_bayes > b.ln_bayes; });
 
   const Judged& last = search.last();
   const double lines = static_cast<double>(last.r.size());

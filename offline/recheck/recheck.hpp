@@ -24,7 +24,7 @@ struct Alternative {
 };
 
 /// A change that was found.
-struct Found {
+struct FoundChange {
   Change change;
   double ln_bayes = 0.0;  // for it over its absence, the other changes being there
   std::vector<Estimate> before = {}, after = {};  // its numbers
@@ -33,15 +33,15 @@ struct Found {
 };
 
 /// Whether another explanation is not ruled out and differs from this one.
-bool undecided(const Found& found);
+bool undecided(const FoundChange& found);
 
 struct Recheck {
   enum class Verdict { kTrue, kChanged, kUndecidable } verdict = Verdict::kUndecidable;
-  std::vector<Found> found;       // the strongest first; single readings are not among them
-  std::vector<int> odd_readings;  // rows that contradict all others and were not used
-  bool something_else = false;    // the readings are missed by more than the changes explain
-  double excess = 1.0;            // RMS of what is left, over the RMS that is expected
-  std::vector<Visibility> blind;  // what these poses would not have shown within `limit_m`
+  std::vector<FoundChange> found;  // the strongest first; single readings are not among them
+  std::vector<int> odd_readings;   // rows that contradict all others and were not used
+  bool something_else = false;     // the readings are missed by more than the changes explain
+  double excess = 1.0;             // RMS of what is left, over the RMS that is expected
+  std::vector<Visibility> blind;   // what these poses would not have shown within `limit_m`
   double limit_m = 0.0;
   int readings = 0, poses = 0;  // readings that were used, and different poses among them
   ErrorStats then;              // held-out error of the run that is rechecked

@@ -20,23 +20,23 @@ namespace {
 constexpr std::size_t kMostJoints = 2;  // drawn large
 constexpr unsigned kMostThreads = 4;
 
-struct Place {
+struct FigurePage {
   std::string_view begins;
   Page page;
 };
 
-constexpr std::array kPlaces{
-    Place{"error-hist", Page::kVerdict},    Place{"error-", Page::kWhere},
-    Place{"regions", Page::kWhere},         Place{"joint", Page::kPatterns},
-    Place{"spectrum", Page::kPatterns},     Place{"load", Page::kPatterns},
-    Place{"context", Page::kPatterns},      Place{"order", Page::kPatterns},
-    Place{"coverage", Page::kData},         Place{"evidence", Page::kMissing},
-    Place{"observability", Page::kMissing}, Place{"waterfall", Page::kAdded},
-    Place{"leaf-map", Page::kAdded},        Place{"formulas", Page::kAdded},
-    Place{"parameters", Page::kParameters}, Place{"correlation", Page::kParameters},
-    Place{"history", Page::kVerdict},       Place{"cost", Page::kController},
-    Place{"latency", Page::kController},    Place{"uncertainty", Page::kLimits},
-    Place{"refusals", Page::kLimits}};
+constexpr std::array kFigurePages{
+    FigurePage{"error-hist", Page::kVerdict},    FigurePage{"error-", Page::kWhere},
+    FigurePage{"regions", Page::kWhere},         FigurePage{"joint", Page::kPatterns},
+    FigurePage{"spectrum", Page::kPatterns},     FigurePage{"load", Page::kPatterns},
+    FigurePage{"context", Page::kPatterns},      FigurePage{"order", Page::kPatterns},
+    FigurePage{"coverage", Page::kData},         FigurePage{"evidence", Page::kMissing},
+    FigurePage{"observability", Page::kMissing}, FigurePage{"waterfall", Page::kAdded},
+    FigurePage{"leaf-map", Page::kAdded},        FigurePage{"formulas", Page::kAdded},
+    FigurePage{"parameters", Page::kParameters}, FigurePage{"correlation", Page::kParameters},
+    FigurePage{"history", Page::kVerdict},       FigurePage{"cost", Page::kController},
+    FigurePage{"latency", Page::kController},    FigurePage{"uncertainty", Page::kLimits},
+    FigurePage{"refusals", Page::kLimits}};
 
 /// Joints whose own position explains something of the error, the one that explains most first.
 std::vector<std::string> joints_that_matter(const ReportData& data) {
@@ -75,11 +75,11 @@ std::string figure_of(const std::string& name, const ReportData& data, double wi
 }  // namespace
 
 Page page_of(const std::string& figure) {
-  const Place* best = nullptr;
-  for (const Place& place : kPlaces)
-    if (figure.starts_with(place.begins) &&
-        (best == nullptr || place.begins.size() > best->begins.size()))
-      best = &place;
+  const FigurePage* best = nullptr;
+  for (const FigurePage& entry : kFigurePages)
+    if (figure.starts_with(entry.begins) &&
+        (best == nullptr || entry.begins.size() > best->begins.size()))
+      best = &entry;
   return best == nullptr ? Page::kWhere : best->page;
 }
 

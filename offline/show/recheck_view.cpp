@@ -20,7 +20,7 @@ namespace plumb::offline::show {
 namespace {
 
 using recheck::Alternative;
-using recheck::Found;
+using recheck::FoundChange;
 using recheck::Recheck;
 using recheck::RecheckPlan;
 using recheck::Visibility;
@@ -34,7 +34,7 @@ std::string signed_number(double si, const ParameterUnit& unit) {
 }
 
 /// What happened to a part, as a sentence without its full stop.
-std::string what_happened(const Cell& cell, const Found& found) {
+std::string what_happened(const Cell& cell, const FoundChange& found) {
   const recheck::Change& change = found.change;
   const std::string motion = mm(found.motion_m);
   if (change.part == recheck::Part::kTool)
@@ -55,7 +55,7 @@ std::string what_happened(const Cell& cell, const Found& found) {
 }
 
 /// Explanations that the readings leave open, in words; those that matter first.
-std::vector<std::string> open_words(const Cell& cell, const Found& found) {
+std::vector<std::string> open_words(const Cell& cell, const FoundChange& found) {
   std::vector<std::string> out;
   for (const Alternative& a : found.alternatives)
     if (a.behind_nats < recheck::kUndecided) out.push_back(words_of(a.change, cell));
@@ -166,7 +166,7 @@ Json changed_part_json(const Cell& cell, const recheck::Change& change) {
   return out;
 }
 
-Json found_json(const Cell& cell, const Found& found) {
+Json found_json(const Cell& cell, const FoundChange& found) {
   Json out = changed_part_json(cell, found.change);
   put(out, "ln_bayes", found.ln_bayes);
   put(out, "motion_rms_mm", to_mm(found.motion_m));

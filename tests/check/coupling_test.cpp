@@ -30,13 +30,13 @@ Cell arm(std::uint64_t seed) {
 
 /// The search over readings of a controller that shows its joints in this way, and the cell and the
 /// measurements as it says that they are meant.
-struct Found {
+struct Detected {
   Detection detection;
   Cell meant;
   double left_m = 0.0;  // largest difference of a joint angle from the true one
 };
 
-Found found(std::uint64_t seed, const Shown& show) {
+Detected found(std::uint64_t seed, const Shown& show) {
   Cell cell = arm(seed);
   Simulation simulation = seen(cell, seed);
   const RowsN angles = simulation.measured.q;
@@ -44,7 +44,7 @@ Found found(std::uint64_t seed, const Shown& show) {
   const scrambled::Folder folder;
   const auto c =
       scrambled::opened({write_cell(cell), simulated_csv(cell, simulation), {}}, folder.path());
-  Found out{detect_convention(c.cell, c.measured), {}, 0.0};
+  Detected out{detect_convention(c.cell, c.measured), {}, 0.0};
   const Convention& labels = out.detection.present.convention;
   const Convention& best = out.detection.best.convention;
   const std::string edit = edited(c.cell.text, "cell.toml", cell_edit(c.cell, labels, best));
@@ -58,8 +58,8 @@ constexpr double kRounding = 1e-6;
 TEST(CouplingSearch, OfAnyTwoNeighboursIsFoundAndWritten) {
   for (int i = 1; i < 6; ++i)
     for (const double share : {1.0, -1.0}) {
-      const Found out = found(static_cast<std::uint64_t>(3 + i),
-                              [&](RowsN& q) { q.col(i) += share * q.col(i - 1); });
+      const Detected out = found(static_cast<std::uint64_t>(3 + i),
+                                 [&](RowsN& q) { q.col(i) += share * q.col(i - 1); });
       const Couplings expected{
           {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i - 1), -share}};
       EXPECT_EQ(out.detection.best.convention.coupling, expected) << i << " " << share;
@@ -69,12 +69,12 @@ TEST(CouplingSearch, OfAnyTwoNeighboursIsFoundAndWritten) {
 }
 
 TEST(CouplingSearch, OfHalfAnAngleIsFound) {
-  const Found out = found(8, [](RowsN& q) { q.col(2) += 0.5 * q.col(1); });
+  const Detected out = found(8, [](RowsN& q) { q.col(2) += 0.5 * q.col(1); });
   EXPECT_EQ(out.meant.nominal.coupling, (Couplings{{2, 1, -0.5}}));
 }
 
 TEST(CouplingSearch, OfBothWristJointsIsFound) {
-  const Found out = found(9, [](RowsN& q) {
+  const Detected out = found(9, [](RowsN& q) {
     q.col(5) += q.col(4);
     q.col(4) += q.col(3);
   });
@@ -83,7 +83,7 @@ TEST(CouplingSearch, OfBothWristJointsIsFound) {
 }
 
 TEST(CouplingSearch, OfElbowAndWristIsFound) {
-  const Found out = found(10, [](RowsN& q) {
+  const Detected out = found(10, [](RowsN& q) {
     q.col(2) += q.col(1);
     q.col(5) -= q.col(4);
   });
@@ -92,7 +92,7 @@ TEST(CouplingSearch, OfElbowAndWristIsFound) {
 
 TEST(CouplingSearch, WithJointsThatCountTheOtherWayIsFound) {
   for (const auto& turned : {std::vector<int>{2}, {1}, {1, 2}, {0, 4}}) {
-    const Found out = found(11, [&](RowsN& q) {
+    const Detected out = found(11, [&](RowsN& q) {
       q.col(2) += q.col(1);
       for (const int j : turned) q.col(j) *= -1.0;
     });
@@ -103,7 +103,7 @@ TEST(CouplingSearch, WithJointsThatCountTheOtherWayIsFound) {
 }
 
 TEST(CouplingSearch, WithAZeroTurnedByAQuarterIsFound) {
-  const Found out = found(12, [](RowsN& q) {
+  const Detected out = found(12, [](RowsN& q) {
     q.col(2) += q.col(1);
     q.col(3).array() += M_PI_2;
   });
@@ -111,7 +111,7 @@ TEST(CouplingSearch, WithAZeroTurnedByAQuarterIsFound) {
 }
 
 TEST(CouplingSearch, WithColumnsInAnotherOrderIsFound) {
-  const Found out = found(13, [](RowsN& q) {
+  const Detected out = found(13, [](RowsN& q) {
     q.col(2) += q.col(1);
     q.col(3).swap(q.col(5));
   });
@@ -120,7 +120,7 @@ TEST(CouplingSearch, WithColumnsInAnotherOrderIsFound) {
 }
 
 TEST(CouplingSearch, IsSaidInWords) {
-  const Found out = found(14, [](RowsN& q) { q.col(2) += q.col(1); });
+  const Detected out = found(14, [](RowsN& q) { q.col(2) += q.col(1); });
   const auto words =
       in_words(arm(14), out.detection.present.convention, out.detection.best.convention);
   EXPECT_EQ(words, std::vector<std::string>{
@@ -129,7 +129,7 @@ TEST(CouplingSearch, IsSaidInWords) {
 
 TEST(CouplingSearch, OfAHealthyArmIsNotFound) {
   for (std::uint64_t seed = 20; seed < 26; ++seed) {
-    const Found out = found(seed, [](RowsN&) {});
+    const Detected out = found(seed, [](RowsN&) {});
     EXPECT_FALSE(out.detection.changed) << seed;
     EXPECT_TRUE(out.meant.nominal.coupling.empty()) << seed;
   }
