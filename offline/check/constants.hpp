@@ -11,34 +11,36 @@
 ///   arms      the size that such a thing has in industrial arms, controllers and trackers; known
 ///             in the field, not measured here
 ///   model     the same number by which the fit or its geometric model decides
-///   data      the least from which it can be told at all
+///   data      the least from which it can be estimated at all
 ///   chosen    set by judgement for the reason that is given. The laws of tests/check hold with it;
 ///             no study compared it with other values
 ///   cost      bounds the time of a check
 ///
-/// None was fitted to data. What only keeps the arithmetic sound, bounds the length of a sentence,
-/// or is a list of units or names stands where it is used.
+/// How the numbers were found was not recorded. The reasons were written down on 2026-11-28 from
+/// the code, its history and its tests; none of the numbers is known to have been fitted to data.
+/// What only keeps the arithmetic sound, bounds the length of a sentence, or is a list of units or
+/// names stands where it is used.
 namespace plumb::offline::check {
 
 inline constexpr double kDegree_rad = M_PI / 180.0;
 
 // How many rows are looked at. All of these are cost.
 
-/// Of a file that is searched for faulty rows or a repeating pattern.
+/// Rows of a file that are searched for faulty rows or a repeating pattern.
 inline constexpr int kMostOfFile = 20000;
-/// That an arm is placed by, and that tell what it predicts and what a fit leaves.
+/// Rows that an arm is placed by, and that tell what it predicts and what a fit leaves.
 inline constexpr int kPredictedRows = 300;
-/// That are searched for a part that contradicts the rest: some thirty fits.
+/// Rows that are searched for a part that contradicts the rest, by some thirty fits.
 inline constexpr int kContradictionRows = 300;
-/// That a common factor of the points is estimated from.
+/// Rows that a common factor of the points is estimated from.
 inline constexpr int kScaleRows = 100;
-/// That the direction of gravity is judged by.
+/// Rows that the direction of gravity is judged by.
 inline constexpr int kGravityRows = 400;
-/// That set-ups are fitted to, to learn whether they share a frame or a reflector.
+/// Rows of all set-ups that are fitted to learn whether these share a frame or a reflector.
 inline constexpr int kSharingRows = 600;
-/// That identifiability is computed from.
+/// Rows that identifiability is computed from.
 inline constexpr int kIdentifiabilityRows = 1500;
-/// That the effect of rounded joint readings is averaged over.
+/// Rows that the effect of rounded joint readings is averaged over.
 inline constexpr int kRoundingRows = 500;
 
 // Does an interpretation of the files fit the points?
@@ -123,7 +125,7 @@ inline constexpr double kZeroStep = M_PI / 9.0, kFactorStep_rad = 0.15;
 inline constexpr double kMostAngle = 2.2 * M_PI;
 /// A joint that moves less tells no factor. data.
 inline constexpr double kTellsFactor_rad = 1e-3;
-/// Less is the arm's own error. arms.
+/// A smaller zero [rad], or a factor nearer to 1, is the arm's own error. arms.
 inline constexpr double kLeastZero = kDegree_rad, kLeastFactor = 0.02;
 /// So many standard deviations of a zero and of a factor must be less than these. chosen: as large
 /// as the least zero, half the least factor.
@@ -140,12 +142,12 @@ inline constexpr double kSameFactor = 5e-3, kFactorDeviations = 6.0;
 inline constexpr double kOneWhole = 0.3;
 /// A zero is a round number of degrees if it is so near to one. arms: how well zeros are set.
 inline constexpr double kNearRound_deg = 0.1;
-/// The fit finds smaller zeros by itself and refuses larger ones (E-FIT-FAR). model.
+/// The fit finds smaller zeros [rad] by itself and refuses larger ones (E-FIT-FAR). model.
 inline constexpr double kFitFindsZero = M_PI / 18.0;
 
 // Is the given frame wrong, and how?
 
-/// Less is the arm's own error. arms.
+/// Two frames that differ by less are the same; the difference is the arm's own error. arms.
 inline constexpr double kFrameTurned_rad = 5e-3, kFrameMoved_m = 5e-3;
 /// A direction is called an axis if so much of it lies along that axis: 11 degrees. chosen.
 inline constexpr double kAlongAxis = 0.98;
@@ -155,11 +157,12 @@ inline constexpr double kFrameUnit = 0.02;
 
 // Have all points one factor?
 
-/// Less is a tracker's own accuracy. arms.
+/// A smaller difference of the factor from 1 is within a tracker's own accuracy. arms.
 inline constexpr double kLeastScale = 50e-6;
-/// From here on the factor is found without the fitted lengths. chosen: fits absorb smaller ones.
+/// A larger difference from 1 is looked for without the fitted lengths. chosen: fits absorb smaller
+/// ones.
 inline constexpr double kLeastGross = 0.01;
-/// Fitted lengths whose scatter tells how far lengths are off by themselves. data.
+/// Fewest fitted lengths whose scatter tells how far lengths are off by themselves. chosen.
 inline constexpr std::size_t kFewestLengths = 5;
 /// The factor in standard deviations, multiplied by 1 + the second number / degrees of freedom.
 /// textbook: Student's t exceeds that once in 4,000 with five lengths and 85,000 with eleven.
@@ -174,14 +177,14 @@ inline constexpr double kUnitOfFactor = 0.01;
 
 // Were rows one after another written otherwise?
 
-/// Rows below which no structure among them is looked for. data.
+/// With fewer rows no structure among them is looked for. chosen.
 inline constexpr int kFewestRows = 30;
 /// Rows one after another that share a fault or an error. chosen: two agree by chance.
 inline constexpr int kFewestOfRun = 3;
 /// Rows that an arm near nominal is fitted to. data: 45 coordinates for some 36 numbers, which are
 /// held near nominal.
 inline constexpr std::size_t kFewestFitted = 15;
-/// The same. cost.
+/// Rows of a part to which it is thinned. cost.
 inline constexpr int kMostFitted = 100;
 /// Faults of one file. cost.
 inline constexpr int kMostFaults = 3;
@@ -211,7 +214,7 @@ inline constexpr double kOneVector = 0.2;
 
 /// Longest period in rows. chosen: more faces, stations or reflectors in turn are rare.
 inline constexpr int kLongestPeriod = 12;
-/// Rows at each place of the period. data.
+/// Fewest rows at each place of the period. chosen: their mean has a third of their scatter.
 inline constexpr int kFewestOfPlace = 8;
 /// Errors beyond so many medians count as if they were there. chosen: a few decide nothing.
 inline constexpr double kClipMedians = 20.0;
@@ -256,7 +259,7 @@ inline constexpr double kPartFollows = 0.6;
 
 // Which way does gravity point?
 
-/// Residuals beyond the parameters. data.
+/// Fewest residuals beyond the parameters. chosen: their variance is then known to 26 %.
 inline constexpr int kSpareResiduals = 30;
 /// Gravity leaves less than this share of what the geometry leaves, and of what errors of once a
 /// turn leave: half of it is explained. chosen.
@@ -274,7 +277,7 @@ inline constexpr double kUpright = 2.0 * kDegree_rad;
 
 // Do set-ups share what they are said to share?
 
-/// Rows of the set-up. data: 30 coordinates for six numbers of a frame.
+/// Fewest rows of the set-up. chosen: 30 coordinates tell six numbers of a frame well.
 inline constexpr int kFewestOfSetup = 10;
 /// The fit with a frame or reflector of its own leaves less than this share. chosen.
 inline constexpr double kSharingExplains = 0.5;
@@ -283,15 +286,16 @@ inline constexpr double kSharingExplains = 0.5;
 
 /// Rounding is seen from such a share of the noise on. textbook: it then adds 12 % to the RMS.
 inline constexpr double kRoundingSeen = 0.5;
-/// The same step [m], where no noise is known. arms: no tracker is read coarser on purpose.
+/// Rounding is seen from this step [m] on where no noise is known. arms: no tracker is read coarser
+/// on purpose.
 inline constexpr double kCoarseRounding_m = 50e-6;
 /// Rounding explains what a fit leaves if the two differ by no more than this factor. chosen.
 inline constexpr double kRoundingLeft = 0.5;
-/// Different values of a column: fewer are round by chance or choice. data.
+/// Different values of a column; fewer may be round by chance or choice. chosen.
 inline constexpr std::size_t kFewestValues = 10;
 /// Following repeats that each one is compared with. cost.
 inline constexpr int kNeighbours = 3;
-/// Pairs of repeats that differ, from which the chance of equal ones is estimated. data.
+/// Fewest pairs of repeats that differ, from which the chance of equal ones is estimated. chosen.
 inline constexpr double kEnoughPairs = 5.0;
 /// Standard deviation of a tracker whose noise is unknown: hardly any repeats a point better. arms.
 inline constexpr double kQuietTracker_m = 3e-6;
