@@ -7,6 +7,7 @@
 
 #include "program/json.hpp"
 #include "program/problem.hpp"
+#include "program/verdict.hpp"
 
 namespace plumb {
 
@@ -31,9 +32,10 @@ struct Outcome {
   /// Files, and folders with all that is in them, that belong to what the verb works on: no output
   /// of it may replace them.
   std::vector<std::filesystem::path> kept;
-  std::vector<Problem> remarks;  // warnings and notes
-  Json result;                   // null until there is one
-  std::string text;              // for people; the first line is the verdict
+  std::vector<Problem> remarks;   // warnings and notes
+  Json result;                    // null until there is one
+  std::string text;               // for people; the first line is the verdict
+  std::vector<Verdict> verdicts;  // of the text, unless the result has a verdict_class
   std::vector<Problem> errors;
   Exit exit = Exit::kDone;
 

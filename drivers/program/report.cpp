@@ -55,10 +55,14 @@ int cannot_print(int reason) {
   return static_cast<int>(Exit::kEnvironment);
 }
 
-/// The verdict of the result, as it stands in the text.
-Verdict verdict_of(const Json& result) {
-  if (!result.is_object() || !result.contains("verdict_class")) return {};
-  return {printable_text(result.value("verdict", "")), result.value("verdict_class", "")};
+/// The verdicts as they stand in the text.
+std::vector<Verdict> verdicts_of(const Outcome& outcome) {
+  std::vector<Verdict> out = outcome.verdicts;
+  const Json& result = outcome.result;
+  if (result.is_object() && result.contains("verdict_class"))
+    out.push_back({result.value("verdict", ""), result.value("verdict_class", "")});
+  for (Verdict& verdict : out) verdict.sentence = printable_text(verdict.sentence);
+  return out;
 }
 
 }  // namespace
@@ -88,10 +92,9 @@ int report(const Command& command, const Globals& globals, const Outcome& outcom
   const bool json = globals.output == Globals::Output::kJson;
   const Screen messages = json ? Screen{} : screen_of(STDERR_FILENO);
   print_problems(outcome.remarks, messages);
-  const bool printed =
-      print_out(json ? to_text(envelope(command, outcome))
-                     : laid_out(printable_text(outcome.text), screen_of(STDOUT_FILENO),
-                                verdict_of(outcome.result)));
+  const bool printed = print_out(json ? to_text(envelope(command, outcome))
+                                      : laid_out(printable_text(outcome.text),
+                                                 screen_of(STDOUT_FILENO), verdicts_of(outcome)));
   const int reason = errno;
   print_problems(outcome.errors, messages);
   const int failed = printed ? 0 : cannot_print(reason);

@@ -28,18 +28,8 @@ struct WordColour {
   std::string_view colour;
 };
 
-/// Beginnings of a line that are coloured where the JSON gives no class. The first that fits
-/// counts, so longer ones stand before shorter ones.
-constexpr WordColour kJudgements[] = {
-    {"Good", kGood},           {"Not good enough", kError}, {"Something moved", kWarning},
-    {"Complete", kGood},       {"Missing", kWarning},       {"Unknown", kWarning},
-    {"Undecidable", kWarning}, {"Not usable", kError},      {"Not representative", kWarning},
-    {"Usable, but", kWarning}, {"Usable", kGood},           {"Next:", kNote},
-};
-
+constexpr WordColour kActions[] = {{"Next:", kNote}};
 constexpr WordColour kMessages[] = {{"error", kError}, {"warning", kWarning}, {"note", kNote}};
-
-/// Colours of the classes of a verdict, as the JSON names them.
 constexpr WordColour kClasses[] = {{"good", kGood}, {"partly", kWarning}, {"bad", kError}};
 
 std::string coloured(const std::string& line, std::span<const WordColour> table) {
@@ -205,16 +195,18 @@ Screen screen_of(int descriptor) {
   return {columns_of(descriptor), ink_of(descriptor), ::isatty(descriptor) != 0};
 }
 
-std::string laid_out(const std::string& text, const Screen& screen, const Verdict& verdict) {
-  const std::string words = verdict.sentence.substr(0, verdict.sentence.find(':'));
-  std::vector<WordColour> verdicts;
-  for (const auto& [name, colour] : kClasses)
-    if (!words.empty() && name == verdict.found) verdicts.push_back({words, colour});
-  verdicts.insert(verdicts.end(), std::begin(kVerdicts), std::end(kVerdicts));
+std::string laid_out(const std::string& text, const Screen& screen,
+                     std::span<const Verdict> verdicts) {
+  std::vector<WordColour> beginnings(std::begin(kActions), std::end(kActions));
+  for (const Verdict& verdict : verdicts)
+    for (const auto& [name, colour] : kClasses)
+      if (!verdict.sentence.empty() && name == verdict.found)
+        beginnings.push_back(
+            {std::string_view(verdict.sentence).substr(0, verdict.sentence.find(':')), colour});
   std::string out;
   for (const std::string& whole : with_parted_tables(lines_of(text), screen.columns)) {
     const std::string line = fitted(whole, screen.columns);
-    out += (screen.ink == Screen::Ink::kColour ? coloured(line, verdicts) : line) + "\n";
+    out += (screen.ink == Screen::Ink::kColour ? coloured(line, beginnings) : line) + "\n";
   }
   if (!out.empty() && !text.ends_with('\n')) out.pop_back();
   return out;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
+
+#include "program/verdict.hpp"
 
 namespace plumb {
 
@@ -17,17 +20,13 @@ struct Screen {
 /// only, and never with NO_COLOR (https://no-color.org) or TERM=dumb.
 Screen screen_of(int descriptor);
 
-/// The verdict among the results of a command, and its class: good, partly, bad or unknown.
-struct Verdict {
-  std::string sentence, found;
-};
-
-/// The text with its sentences wrapped at the width of the screen and the verdict at the beginning
-/// of a line in its colour: that of its class, if it is `verdict`. In a table row (at least two
-/// blanks between cells) the last cell is wrapped within its column. A table whose other cells are
+/// The text with its sentences wrapped at the width of the screen, and a verdict at the beginning
+/// of a line, up to its colon, in the colour of its class. In a table row (at least two blanks
+/// between cells) the last cell is wrapped within its column. A table whose other cells are
 /// too wide is split into several, one below the other, each with the first column. Commands to
 /// paste are not wrapped; if one is too wide, the comment after it is moved to a line of its own.
-std::string laid_out(const std::string& text, const Screen& screen, const Verdict& verdict = {});
+std::string laid_out(const std::string& text, const Screen& screen,
+                     std::span<const Verdict> verdicts = {});
 
 /// The same for the text of --help: an example that is too wide is continued on the next line after
 /// a backslash, so that it can still be pasted.

@@ -5,12 +5,14 @@
 #include <optional>
 
 #include "bench/benchmark.hpp"
+#include "bench/machine.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/model_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "figures/bench_figures.hpp"
 #include "figures/registry.hpp"
+#include "fit/verdict.hpp"
 #include "program/output_files.hpp"
 #include "show/latency_view.hpp"
 
@@ -73,6 +75,9 @@ void bench_model(const BenchArguments& options, const Globals& globals, Outcome&
   refuse_existing(options, outcome);
   const bench::Benchmark found = timed(options, model);
   outcome.result = show::bench_json(found);
+  if (!found.why_not_representative.empty())
+    outcome.verdicts = {
+        {bench::fitness_text(found.why_not_representative), name_of(Grade::kPartly)}};
   outcome.text = show::bench_text(found);
   remark_on(found, outcome);
   if (passes(options, found, outcome) && !options.figure.empty()) draw(options, found, outcome);

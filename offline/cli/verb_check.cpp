@@ -60,6 +60,7 @@ void check(const CheckArguments& options, const Globals& globals, Outcome& outco
   const Progress progress(fmt::format("checking {} rows", measured.size()));
   const Check found = check_cell(cell, measured);
   outcome.result = show::check_json(cell, found);
+  outcome.verdicts = {show::check_verdict(found)};
   outcome.text = show::check_text(cell, found);
   hand_over(found, outcome);
   if (options.fix) fix(options, cell, measured, found, outcome);

@@ -123,6 +123,7 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
   outcome.remark(found.remarks);
   if (before && !options.dry_run) keep_what_was_found(options, cell, *before, found);
   outcome.result = show::diagnose_json(cell, found);
+  outcome.verdicts = {{found.text, show::class_of(found.finding)}};
   outcome.text = show::diagnose_text(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);
   if (options.apply && !keep_applied(options, cell, measured, found, before_m, outcome))

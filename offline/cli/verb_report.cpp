@@ -175,6 +175,7 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
     files.add(pdf, report::printed_pdf(*browser, made.html));
   }
   files.commit(options.write, outcome);
+  outcome.verdicts = {{made.verdict, name_of(grade(run.fit, cell.tolerance_m))}};
   outcome.text = made.verdict + "\n\n" + wrote(file, options.write) +
                  fmt::format(" ({:.0f} kB, {} pages)\n",
                              static_cast<double>(made.html.size()) / 1e3, made.pages);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "fit/verdict.hpp"
 #include "program/counted_words.hpp"
 #include "show/table.hpp"
 #include "show/units.hpp"
@@ -129,7 +130,19 @@ std::string effects_text(const std::vector<Testable>& effects) {
   return out;
 }
 
+Grade grade_of(const Check& check) {
+  if (check.detection.changed || check.orientations.stops() || check.exit != Exit::kDone)
+    return Grade::kBad;
+  const bool all = check.moved.empty() && check.orientations.judged.fit_to_use();
+  return all ? Grade::kGood : Grade::kPartly;
+}
+
 }  // namespace
+
+Verdict check_verdict(const Check& check) {
+  const std::string words = verdict(check);
+  return {words.substr(0, words.find_first_of(":,")), name_of(grade_of(check))};
+}
 
 std::string check_text(const Cell& cell, const Check& check) {
   std::string out = verdict(check) + "\n\n" + readings_text(cell, check.detection) + "\n";

@@ -10,6 +10,7 @@
 #include "diagnose/effect_domain.hpp"
 #include "diagnose/effect_words.hpp"
 #include "diagnose/scan.hpp"
+#include "fit/verdict.hpp"
 #include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
@@ -107,6 +108,10 @@ constexpr const char* kMeasure = "plan --n 30   # which poses to measure next";
 constexpr const char* kCompile = "compile   # the model file for the controller";
 
 }  // namespace
+
+const char* class_of(Finding finding) {
+  return name_of(finding == Finding::kComplete ? Grade::kGood : Grade::kPartly);
+}
 
 std::string support_words(const Diagnosis& d, const Candidate& c) {
   const bool either = is_either(d, c.entry);

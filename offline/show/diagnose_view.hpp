@@ -13,6 +13,9 @@ namespace plumb::offline::show {
 /// `result` of `plumb diagnose`.
 Json diagnose_json(const Cell& cell, const Diagnosis& diagnosis);
 
+/// The class of a finding, as of the verdict of a fit.
+const char* class_of(Finding finding);
+
 /// The first candidates in few columns, or all of them with all that is known.
 enum class Candidates { kFirst, kAll };
 

@@ -27,22 +27,25 @@ std::string line(const char* name, const ErrorFigures& figures) {
                      mm(figures.mean_m), mm(figures.rms_m), mm(figures.p95_m), mm(figures.max_m));
 }
 
-std::string verdict(const Comparison& c) {
-  if (c.on.truth.n == 0)
-    return fmt::format("Without correction the tool misses by {:.3f} mm on average.",
-                       mm(c.off.truth.mean_m));
-  if (c.off.truth.n == 0)
-    return fmt::format("With correction the tool misses by {:.4f} mm on average.",
-                       mm(c.on.truth.mean_m));
-  return fmt::format(
-      "{}: correction takes the true error of the tool centre point from {:.3f} to {:.4f} mm, "
-      "{:.0f} "
-      "times less; the tracker sees {:.2f} times its own noise.",
-      c.reached() ? "Good" : "Not good enough", mm(c.off.truth.mean_m), mm(c.on.truth.mean_m),
-      c.ratio(), c.on.measured.mean_m / c.floor.mean_m);
-}
-
 }  // namespace
+
+Verdict verdict(const Comparison& c) {
+  if (c.on.truth.n == 0)
+    return {fmt::format("Without correction the tool misses by {:.3f} mm on average.",
+                        mm(c.off.truth.mean_m)),
+            "unknown"};
+  if (c.off.truth.n == 0)
+    return {fmt::format("With correction the tool misses by {:.4f} mm on average.",
+                        mm(c.on.truth.mean_m)),
+            "unknown"};
+  return {fmt::format(
+              "{}: correction takes the true error of the tool centre point from {:.3f} to {:.4f} "
+              "mm, {:.0f} "
+              "times less; the tracker sees {:.2f} times its own noise.",
+              c.reached() ? "Good" : "Not good enough", mm(c.off.truth.mean_m),
+              mm(c.on.truth.mean_m), c.ratio(), c.on.measured.mean_m / c.floor.mean_m),
+          c.reached() ? "good" : "bad"};
+}
 
 Json to_json(const Comparison& c) {
   Json out;
@@ -60,7 +63,7 @@ Json to_json(const Comparison& c) {
 }
 
 std::string to_text(const Comparison& c) {
-  std::string out = verdict(c) + "\n\n";
+  std::string out = verdict(c).sentence + "\n\n";
   out += "  true error [mm]              stops    mean     RMS    95 %     max\n";
   out += line("correction off", c.off.truth);
   out += line("correction on", c.on.truth);

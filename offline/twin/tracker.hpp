@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "program/json.hpp"
+#include "program/verdict.hpp"
 #include "twin/controller.hpp"
 #include "twin/twin_file.hpp"
 
@@ -54,6 +55,7 @@ inline constexpr double kLeastRatio = 5.0;
 inline constexpr double kMostOverFloor = 1.3;
 
 Json to_json(const Comparison& comparison);
-std::string to_text(const Comparison& comparison);
+Verdict verdict(const Comparison& comparison);
+std::string to_text(const Comparison& comparison);  // begins with the verdict
 
 }  // namespace plumb::offline::twin

@@ -151,6 +151,7 @@ void run(const RunArguments& options, Outcome& outcome) {
     add_stops(stops, found.on, outcome);
   }
   outcome.result.update(to_json(found));
+  outcome.verdicts = {verdict(found)};
   outcome.text = to_text(found) + outcome.text;
   if (!options.gate || found.reached() || !outcome.errors.empty()) return;
   outcome.exit = Exit::kGateFailed;

@@ -182,11 +182,9 @@ TEST(Screen, HasColourOnATerminalOnlyAndNeverWithNoColorOrADumbOne) {
   EXPECT_EQ(screen_of(terminal.descriptor()).ink, Screen::Ink::kPlain);
 }
 
-TEST(Screen, ColoursTheJudgementAndNothingElse) {
+TEST(Screen, ColoursActionsAndMessagesAndNothingElse) {
   const Screen colour{.columns = 100, .ink = Screen::Ink::kColour};
-  EXPECT_EQ(laid_out("Good: all well", colour), "\x1b[1;32mGood\x1b[0m: all well");
-  EXPECT_EQ(laid_out("Complete: all well", colour), "\x1b[1;32mComplete\x1b[0m: all well");
-  EXPECT_EQ(laid_out("Not usable: far", colour), "\x1b[1;31mNot usable\x1b[0m: far");
+  EXPECT_EQ(laid_out("Next: plumb fit", colour), "\x1b[1;36mNext:\x1b[0m plumb fit");
   EXPECT_EQ(laid_out("Planned 5 poses", colour), "Planned 5 poses");
   EXPECT_EQ(painted("warning[W-X]: y", colour), "\x1b[1;33mwarning\x1b[0m[W-X]: y");
   EXPECT_EQ(painted("error[E-X]: y", {}), "error[E-X]: y");
@@ -196,11 +194,14 @@ TEST(Screen, AVerdictHasTheColourOfItsClassAndNotOfItsWords) {
   const Screen colour{.columns = 100, .ink = Screen::Ink::kColour};
   const std::string missing = "Good: 0.03 mm, but something physical is still missing.";
   const auto seen = [&](const std::string& line, const char* found) {
-    return laid_out("Fitted.\n" + line, colour, {missing, found});
+    const Verdict verdicts[] = {{missing, found}};
+    return laid_out("Fitted.\n" + line, colour, verdicts);
   };
   EXPECT_EQ(seen(missing, "partly"), "Fitted.\n\x1b[1;33mGood\x1b[0m" + missing.substr(4));
   EXPECT_EQ(seen(missing, "good"), "Fitted.\n\x1b[1;32mGood\x1b[0m" + missing.substr(4));
   EXPECT_EQ(seen(missing, "bad"), "Fitted.\n\x1b[1;31mGood\x1b[0m" + missing.substr(4));
+  EXPECT_EQ(seen(missing, "unknown"), "Fitted.\n" + missing);
+  EXPECT_EQ(laid_out("Good: words alone", colour), "Good: words alone");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "diagnose/effect_words.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/fitted_laws.hpp"
+#include "show/check_view.hpp"
 #include "show/diagnose_view.hpp"
 
 namespace plumb::offline {
@@ -137,6 +138,20 @@ TEST(EffectSentence, WhatIsCertainNeedsNoMeasurementToBeSure) {
     EXPECT_EQ(next.find("to be sure which it is") == std::string::npos, certain) << next;
     EXPECT_EQ(next.find("joint_compliance:J2,gear_harmonics:J2") == std::string::npos, certain);
   }
+}
+
+TEST(VerdictClass, IsThatOfTheFindingAndOfWhatTheDataAreGoodFor) {
+  EXPECT_STREQ(show::class_of(Finding::kComplete), "good");
+  for (const Finding finding : {Finding::kMissing, Finding::kUnknown, Finding::kUndecidable})
+    EXPECT_STREQ(show::class_of(finding), "partly");
+  Check check;
+  EXPECT_EQ(show::check_verdict(check).found, "good");
+  EXPECT_EQ(show::check_verdict(check).sentence, "Usable");
+  check.moved = "the reflector slipped";
+  EXPECT_EQ(show::check_verdict(check).found, "partly") << "it begins with Usable all the same";
+  EXPECT_TRUE(show::check_verdict(check).sentence.starts_with("Usable only"));
+  check.detection.changed = true;
+  EXPECT_EQ(show::check_verdict(check).found, "bad");
 }
 
 }  // namespace

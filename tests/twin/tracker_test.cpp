@@ -72,8 +72,10 @@ TEST(Comparison, IsReachedOnlyIfBothAreTrue) {
   c.on.truth = {.n = 1, .mean_m = 10e-6};
   c.on.measured = {.n = 1, .mean_m = 17e-6, .rms_m = 18e-6};
   EXPECT_TRUE(c.reached());
+  EXPECT_EQ(verdict(c).found, "good");
   c.on.measured.mean_m = 21e-6;
   EXPECT_FALSE(c.reached());
+  EXPECT_EQ(verdict(c).found, "bad");
   c.on.measured.mean_m = 17e-6;
   c.on.truth.mean_m = 21e-6;
   EXPECT_FALSE(c.reached());
