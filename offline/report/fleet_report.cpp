@@ -43,21 +43,16 @@ Html cells_section(const Fleet& fleet) {
                     .head = {"cell", "arm", show::head::kMean, show::head::kP95, show::head::kMax,
                              show::head::kEffects, "verdict"},
                     .left_from = 5};
-  std::size_t left_out = 0;
-  for (const auto& cell : fleet.cells) {
-    if (fleet.cells.size() > kAllListed && !show::needs_attention(fleet, cell)) {
-      ++left_out;
-      continue;
-    }
-    const auto mm = [&](double error_m) { return cell.ok ? show::mm(error_m) : "-"; };
+  for (const CellSummary* const cell : show::listed_cells(fleet, kAllListed)) {
+    const auto mm = [&](double error_m) { return cell->ok ? show::mm(error_m) : "-"; };
     table.rows.push_back(
-        {cell.name, cell.arm, mm(cell.held.mean), mm(cell.held.p95), mm(cell.held.max),
-         show::counted(cell.effects),
-         fmt::format("{} {}", verdict_mark(cell.verdict_class), show::state_of(fleet, cell))});
-    table.last_class.push_back(cell.verdict_class);
+        {cell->name, cell->arm, mm(cell->held.mean), mm(cell->held.p95), mm(cell->held.max),
+         show::counted(cell->effects),
+         fmt::format("{} {}", verdict_mark(cell->verdict_class), show::state_of(fleet, *cell))});
+    table.last_class.push_back(cell->verdict_class);
   }
   html.table(table);
-  if (left_out > 0)
+  if (const auto left_out = fleet.cells.size() - table.rows.size(); left_out > 0)
     html.paragraph(fmt::format("{} that are good are not listed here; fleet.json has them all.",
                                counted_words(left_out, "arm", "arms")));
   return html;

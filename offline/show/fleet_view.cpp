@@ -112,18 +112,12 @@ Json shares_json(const std::vector<fleet::EffectShare>& shares) {
 std::string cells_text(const Fleet& all) {
   Table table{.head = {"cell", head::kMean, head::kP95, head::kEffects, "verdict"}};
   table.left_from = 3;
-  std::size_t left_out = 0;
-  for (const auto& cell : all.cells) {
-    if (all.cells.size() > kAllShown && !needs_attention(all, cell)) {
-      ++left_out;
-      continue;
-    }
-    table.add({printable_line(cell.name), cell.ok ? mm(cell.held.mean) : "-",
-               cell.ok ? mm(cell.held.p95) : "-", counted(cell.effects),
-               printable_line(state_of(all, cell))});
-  }
+  for (const CellSummary* const cell : listed_cells(all, kAllShown))
+    table.add({printable_line(cell->name), cell->ok ? mm(cell->held.mean) : "-",
+               cell->ok ? mm(cell->held.p95) : "-", counted(cell->effects),
+               printable_line(state_of(all, *cell))});
   std::string out = "Held-out error in mm:\n\n" + text_of(table);
-  if (left_out > 0)
+  if (const auto left_out = all.cells.size() - table.rows.size(); left_out > 0)
     out += fmt::format("  and {}\n", counted_words(left_out, "good one", "good ones"));
   return out;
 }
@@ -184,8 +178,12 @@ std::string state_of(const Fleet& all, const CellSummary& cell) {
   return odd == nullptr ? cell.verdict_head : cell.verdict_head + "; " + odd_words(all, *odd);
 }
 
-bool needs_attention(const Fleet& all, const CellSummary& cell) {
-  return cell.verdict_class != "good" || odd_arm(all, cell.name) != nullptr;
+std::vector<const CellSummary*> listed_cells(const Fleet& all, std::size_t most) {
+  std::vector<const CellSummary*> out;
+  for (const auto& cell : all.cells)
+    if (all.cells.size() <= most || cell.verdict_class != "good" || odd_arm(all, cell.name))
+      out.push_back(&cell);
+  return out;
 }
 
 std::string fleet_verdict(const Fleet& all) {

@@ -21,8 +21,9 @@ std::string fleet_verdict(const fleet::Fleet& fleet);
 /// unlike its sisters; or why it could not be fitted.
 std::string state_of(const fleet::Fleet& fleet, const fleet::CellSummary& cell);
 
-/// Whether it must be listed among very many: its verdict is not good, or it is unlike its sisters.
-bool needs_attention(const fleet::Fleet& fleet, const fleet::CellSummary& cell);
+/// All cells; of more than `most` only those whose verdict is not good, or that are unlike their
+/// sisters.
+std::vector<const fleet::CellSummary*> listed_cells(const fleet::Fleet& fleet, std::size_t most);
 
 /// The arm as one that is unlike its sisters; null if it is not.
 const fleet::OddArm* odd_arm(const fleet::Fleet& fleet, const std::string& cell);
