@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 
-#include "arm/predicted_points.hpp"
 #include "cell/effects_edit.hpp"
 #include "cell/replicates.hpp"
 #include "check/data_sense.hpp"
@@ -15,6 +14,7 @@
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/forward_selection.hpp"
+#include "diagnose/held_out_predictions.hpp"
 #include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/other_gravity.hpp"
@@ -25,7 +25,6 @@
 #include "fit/few_poses.hpp"
 #include "fit/measured_orientations.hpp"
 #include "fit/split.hpp"
-#include "noise/usual_errors.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -42,61 +41,6 @@ Cell physics_of(Cell cell) {
   std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
   return cell;
 }
-
-/// Rows whose residual is an outlier under the model as given, and the noise of one axis.
-struct BadRows {
-  std::set<int> rows;
-  double sigma_m = 0.0;
-};
-
-/// Predictions of held-out poses.
-class HeldOut {
- public:
-  HeldOut(const Measurements& measured, const Split& split)
-      : measured_(&measured), rows_(held_rows(split)), predicted_(measured.p_M) {}
-
-  void put(const Calibration& calibration, const std::vector<int>& rows) {
-    const Rows3 points = predict_points(calibration.state, pick(*measured_, rows));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
-  }
-  std::vector<double> norms() const {
-    const Rows3 error = residuals(*measured_, predicted_);
-    std::vector<double> norms;
-    for (int row : rows_) norms.push_back(error.row(row).norm());
-    return norms;
-  }
-
-  /// Rows that are outliers, if there are only a few; the verdict of a fit leaves the same ones
-  /// out.
-  std::set<int> bad_rows(double sigma_m) const {
-    const auto far = far_rows(norms(), sigma_m);
-    return are_single(far.size(), rows_.size()) ? far : std::set<int>();
-  }
-
-  /// Errors of all rows but those that are bad both at the start and here. So a pose that the model
-  /// has made worse counts, and a bad one that the model now predicts well counts too.
-  ErrorStats stats(const BadRows& bad) const {
-    std::vector<double> all = norms(), usual;
-    const auto far = far_rows(all, bad.sigma_m);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (!bad.rows.contains(rows_[i]) || !far.contains(rows_[i])) usual.push_back(all[i]);
-    return summarise(std::move(usual));
-  }
-
- private:
-  std::set<int> far_rows(const std::vector<double>& errors_m, double sigma_m) const {
-    const auto& has = measured_->has_axis;
-    const auto axes = static_cast<int>(std::count(has.begin(), has.end(), true));
-    std::set<int> out;
-    for (const std::size_t i : standing_out(errors_m, axes, sigma_m).which) out.insert(rows_[i]);
-    return out;
-  }
-
-  const Measurements* measured_;
-  std::vector<int> rows_;
-  Rows3 predicted_;
-};
 
 /// The data and settings that all steps of a diagnosis share.
 struct Work {
@@ -122,9 +66,9 @@ struct Work {
 
 /// Held-out predictions of the model with this list of effects; the list itself is not selected
 /// anew in each fold.
-HeldOut held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
-                    const Calibration& fitted) {
-  HeldOut out(w.measured, w.split);
+HeldOutPredictions held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
+                               const Calibration& fitted) {
+  HeldOutPredictions out(w.measured, w.split);
   if (w.split.folds == 0) out.put(fitted, w.held);
   for (int k = 0; k < w.split.folds; ++k)
     out.put(refitted(w.cell, w.measured, fit_rows(w.split, k), effects, fitted),
@@ -144,8 +88,8 @@ bool chosen_in_folds(const Work& w, const std::vector<ForwardStep>& steps) {
 }
 
 /// Held-out predictions where the effects are selected anew without each fold.
-HeldOut nested_held_out(const Work& w) {
-  HeldOut out(w.measured, w.split);
+HeldOutPredictions nested_held_out(const Work& w) {
+  HeldOutPredictions out(w.measured, w.split);
   for (int k = 0; k < w.split.folds; ++k) {
     if (w.request.tell)
       w.request.tell(fmt::format("step 4 of 4, fold {} of {}", k + 1, w.split.folds));
@@ -162,7 +106,7 @@ HeldOut nested_held_out(const Work& w) {
 }
 
 /// The held-out error compared with what noise and the number of fitted parameters make inevitable.
-std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
+std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOutPredictions& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
   return held_out_excess(held.stats(w.bad).mean, floor,
@@ -283,13 +227,13 @@ void take_over_first(Diagnosis& out) {
 void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
                     const Scan& first, Diagnosis& out) {
   ForwardSelection found = forward_selection(w.start(w.choosing, false), base, whitened, first);
-  std::vector<HeldOut> held_by_step;
+  std::vector<HeldOutPredictions> held_by_step;
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
     out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
                          held_by_step.back().stats(w.bad), step.alternatives, step.moves});
   }
-  std::optional<HeldOut> nested;
+  std::optional<HeldOutPredictions> nested;
   if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
   const bool rises = nested && rises_over(out.before, nested->stats(w.bad));
   const std::size_t kept = rises ? 0 : steps_kept(out.before.mean, out.added);
@@ -315,7 +259,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     }
     out.added.back().held = held_by_step.back().stats(w.bad);
   }
-  std::optional<HeldOut> held;
+  std::optional<HeldOutPredictions> held;
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
   out.full = found.full;
   if (!refused) out.undecided = found.undecided;
@@ -440,7 +384,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   const bool wrong_gravity = out.gravity && out.gravity->certain;
   facts.other_gravity = out.gravity && !wrong_gravity;
   tell_step(request, 2);
-  const HeldOut held = held_out_of(w, w.cell.effects, present);
+  const HeldOutPredictions held = held_out_of(w, w.cell.effects, present);
   w.bad.sigma_m = out.floor.sigma_m;
   w.bad.rows = held.bad_rows(w.bad.sigma_m);
   out.before = out.after = held.stats(w.bad);

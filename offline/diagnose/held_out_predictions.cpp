@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/held_out_predictions.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "arm/predicted_points.hpp"
+#include "noise/usual_errors.hpp"
+
+namespace plumb::offline {
+
+HeldOutPredictions::HeldOutPredictions(const Measurements& measured, const Split& split)
+    : measured_(&measured), rows_(held_rows(split)), predicted_(measured.p_M) {}
+
+void HeldOutPredictions::put(const Calibration& calibration, const std::vector<int>& rows) {
+  const Rows3 points = predict_points(calibration.state, pick(*measured_, rows));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
+}
+
+std::vector<double> HeldOutPredictions::norms() const {
+  const Rows3 error = residuals(*measured_, predicted_);
+  std::vector<double> norms;
+  for (int row : rows_) norms.push_back(error.row(row).norm());
+  return norms;
+}
+
+std::set<int> HeldOutPredictions::bad_rows(double sigma_m) const {
+  const auto far = far_rows(norms(), sigma_m);
+  return are_single(far.size(), rows_.size()) ? far : std::set<int>();
+}
+
+ErrorStats HeldOutPredictions::stats(const BadRows& bad) const {
+  std::vector<double> all = norms(), usual;
+  const auto far = far_rows(all, bad.sigma_m);
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (!bad.rows.contains(rows_[i]) || !far.contains(rows_[i])) usual.push_back(all[i]);
+  return summarise(std::move(usual));
+}
+
+std::set<int> HeldOutPredictions::far_rows(const std::vector<double>& errors_m,
+                                           double sigma_m) const {
+  const auto& has = measured_->has_axis;
+  const auto axes = static_cast<int>(std::count(has.begin(), has.end(), true));
+  std::set<int> out;
+  for (const std::size_t i : standing_out(errors_m, axes, sigma_m).which) out.insert(rows_[i]);
+  return out;
+}
+
+}  // namespace plumb::offline
