@@ -15,7 +15,8 @@ double times_usual(double value, double std, const EffectParameter& info) {
 }
 
 bool plausible(double value, double std, const EffectParameter& info) {
-  return possible(value, std, info) && times_usual(value, std, info) <= kMostTimesUsual;
+  return std::isfinite(value) && std::isfinite(std) && possible(value, std, info) &&
+         times_usual(value, std, info) <= kMostTimesUsual;
 }
 
 }  // namespace plumb::offline
