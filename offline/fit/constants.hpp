@@ -115,7 +115,7 @@ inline constexpr std::size_t kFewestForInterval = 3;
 // The verdict [noise floors, unless stated].
 
 /// Up to here an error is at the noise floor. chosen.
-inline constexpr double kAtTheFloor = 1.3;
+inline constexpr double kFloorTimes = 1.3;
 /// Allowance for the sampling error where the uncertainty of an earlier arm raises the expected
 /// error. chosen.
 inline constexpr double kOpenByChance = 1.3;

@@ -7,8 +7,8 @@ namespace plumb::offline {
 bool HeldOutExcess::few_poses() const { return unavoidable > kFewPoses; }
 
 HeldOutExcess::Level HeldOutExcess::level() const {
-  const double right = kAtTheFloor * (few_poses() ? unavoidable : 1.0);
-  if (times <= kAtTheFloor) return Level::kAtTheFloor;
+  const double right = kFloorTimes * (few_poses() ? unavoidable : 1.0);
+  if (times <= kFloorTimes) return Level::kAtTheFloor;
   if (times <= right) return Level::kAsFewPosesLeaveIt;
   return times <= right * inferred ? Level::kAsScatterLeavesIt : Level::kLackOfFit;
 }
