@@ -93,11 +93,11 @@ inline constexpr std::size_t kOneOddOf = 10;
 
 // Held-out poses.
 
-/// held_out = "auto" makes kFolds folds of up to kFoldsUpTo poses, and holds out kHeldShare of
+/// held_out = "auto" makes kAutoFolds folds of up to kFoldsUpTo poses, and holds out kHeldShare of
 /// more. Folds fit all poses, which lowered the error of a real arm from 0.040 to 0.035 mm
 /// (2026-11-24); of many poses a fifth is no loss, and folds would take time. contract
 /// (docs/cell-file.md).
-inline constexpr int kFolds = 5, kFoldsUpTo = 500;
+inline constexpr int kAutoFolds = 5, kFoldsUpTo = 500;
 inline constexpr double kHeldShare = 0.2;
 /// A set-up of fewer poses is fitted as a whole: it has up to nine numbers of its own. data.
 inline constexpr std::size_t kFewestOfSetup = 8;
@@ -120,7 +120,7 @@ inline constexpr double kFloorTimes = 1.3;
 /// error. chosen.
 inline constexpr double kOpenByChance = 1.3;
 /// The poses are few if their number alone raises the error of a correct model to more. outside.
-inline constexpr double kFewPoses = 1.15;
+inline constexpr double kFewPosesTimes = 1.15;
 /// An error below this contradicts the noise floor, which then contains more than noise. chosen.
 inline constexpr double kBelowTheFloor = 0.75;
 /// Unavoidable ratio if the readings cannot judge the model, so that no error is called a lack of

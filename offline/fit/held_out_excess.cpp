@@ -4,7 +4,7 @@
 #include "fit/constants.hpp"
 
 namespace plumb::offline {
-bool HeldOutExcess::few_poses() const { return unavoidable > kFewPoses; }
+bool HeldOutExcess::few_poses() const { return unavoidable > kFewPosesTimes; }
 
 HeldOutExcess::Level HeldOutExcess::level() const {
   const double right = kFloorTimes * (few_poses() ? unavoidable : 1.0);

@@ -203,7 +203,7 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
       if (marks_held_rows(m))
         hold_marked(m, split);
       else if (static_cast<int>(representatives(m, split.used).size()) <= kFoldsUpTo)
-        make_folds(m, kFolds, random, split);
+        make_folds(m, kAutoFolds, random, split);
       else
         hold_share(m, kHeldShare, random, split);
       break;

@@ -64,7 +64,7 @@ inline constexpr int kStartPoses = 500, kTurnPoses = 60;
 inline constexpr double kPlausible_m = 5e-3, kPlausible_rad = 5e-3;
 /// A direction is weak if the poses tell it worse than a third of the prior of the cell. Its number
 /// is a singular value in units of that prior. chosen.
-inline constexpr double kWeak = 3.0;
+inline constexpr double kWeakBelow = 3.0;
 /// A number is named as held near nominal if this share of its square lies in weak directions.
 /// chosen.
 inline constexpr double kNamedShare = 0.25;

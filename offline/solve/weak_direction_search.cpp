@@ -68,7 +68,7 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   square.topRows(std::min(shown.rows(), square.rows())) =
       shown.topRows(std::min(shown.rows(), square.rows()));
   const auto [s, every] = right_singular(square);
-  const auto strong = static_cast<Eigen::Index>((s.array() >= kWeak).count());
+  const auto strong = static_cast<Eigen::Index>((s.array() >= kWeakBelow).count());
   const Eigen::MatrixXd V = every.rightCols(sigma.size() - strong);
   out.weights = V.transpose() * sigma.cwiseInverse().asDiagonal();
   out.share = V.rowwise().squaredNorm();
