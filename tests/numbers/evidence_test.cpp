@@ -54,7 +54,7 @@ TEST(Evidence, APerfectFitLeavesARoundingBehind) {
 }
 
 TEST(Evidence, ANormalDensityIsTheProductOfItsAxes) {
-  const Eigen::VectorXd x = (Eigen::VectorXd(2) << 0.7, -2.0).finished();
+  const Eigen::VectorXd x = Eigen::Vector2d(0.7, -2.0);
   const Eigen::MatrixXd S = Eigen::Vector2d(4.0, 0.25).asDiagonal();
   const double expected = -0.5 * (0.49 / 4.0 + 4.0 / 0.25) - 0.5 * std::log(4.0 * 0.25);
   EXPECT_NEAR(ln_normal(x, Cholesky(S)), expected, 1e-13);
