@@ -70,7 +70,7 @@ TEST_F(RunStore, WhatTheOrientationsWereJudgedToBeIsKeptInTheSameWords) {
   for (const Kind kind : {Kind::kNone, Kind::kGood, Kind::kScattered, Kind::kMissed, Kind::kTurned,
                           Kind::kConstant, Kind::kNominal, Kind::kContradict, Kind::kUnexplained}) {
     fit.orientations = {.kind = kind,
-                        .readings = {},
+                        .interpretations = {},
                         .labelled_rad = 2e-3,
                         .left_rad = 1e-3,
                         .stated = kind != Kind::kGood,
