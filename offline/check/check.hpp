@@ -38,6 +38,10 @@ struct Check {
 /// Cost: 0.1 s for a usual cell, below 1 s for 12,000 poses.
 Check check_cell(const Cell& cell, const MeasurementFiles& measured);
 
+/// What the measurements can be used for.
+enum class Usability { kAll, kPositions, kWithEffect, kNotAsLabelled, kNothing };
+Usability usability(const Check& check);
+
 /// Whether check --fix has something to put right.
 bool can_be_fixed(const Check& check);
 

@@ -25,16 +25,24 @@ bool can_be_fixed(const Check& check) {
   return check.detection.changed || !check.orientations.edit.empty();
 }
 
+Usability usability(const Check& check) {
+  if (check.detection.changed || check.orientations.stops()) return Usability::kNotAsLabelled;
+  if (check.exit != Exit::kDone) return Usability::kNothing;
+  if (!check.moved.empty()) return Usability::kWithEffect;
+  return check.orientations.judged.fit_to_use() ? Usability::kAll : Usability::kPositions;
+}
+
 std::string verdict(const Check& check) {
+  const Usability usable = usability(check);
   const int warnings = count(check, Severity::kWarning);
-  if (check.detection.changed || check.orientations.stops()) {
+  if (usable == Usability::kNotAsLabelled) {
     std::vector<std::string> wrong = check.changes;
     if (check.orientations.stops())
       wrong.push_back(in_words(check.orientations.judged, check.orientations.meant));
     return fmt::format("Not usable as labelled: {} (plumb check --fix puts it right).",
                        fmt::join(wrong, "; "));
   }
-  if (check.exit != Exit::kDone)
+  if (usable == Usability::kNothing)
     return fmt::format("Not usable: {}.", check.findings.front().message);
   const int poses = check.coverage ? check.coverage->poses : 0;
   const int rank = check.parameters ? check.parameters->rank : 0;
@@ -49,10 +57,10 @@ std::string verdict(const Check& check) {
       "the {} {} tell {} of arm, frame and target{}.", counted_words(poses, "pose", "poses"), fit,
       counted_words(rank, "number", "numbers"),
       warnings == 0 ? "" : ", with " + counted_words(warnings, "warning", "warnings"));
-  if (check.moved.empty() && !check.orientations.judged.fit_to_use())
+  if (usable == Usability::kPositions)
     return fmt::format("Usable for positions alone: {}. Without the orientations {}",
                        in_words(check.orientations.judged, check.orientations.meant), numbers);
-  if (check.moved.empty()) return "Usable: " + numbers;
+  if (usable == Usability::kAll) return "Usable: " + numbers;
   return fmt::format("Usable only with the effect '{}', because {}. Without that effect {}",
                      change_point_effect(), check.moved, numbers);
 }

@@ -130,18 +130,16 @@ std::string effects_text(const std::vector<Testable>& effects) {
   return out;
 }
 
-Grade grade_of(const Check& check) {
-  if (check.detection.changed || check.orientations.stops() || check.exit != Exit::kDone)
-    return Grade::kBad;
-  const bool all = check.moved.empty() && check.orientations.judged.fit_to_use();
-  return all ? Grade::kGood : Grade::kPartly;
+Grade grade_of(Usability usable) {
+  if (usable == Usability::kNotAsLabelled || usable == Usability::kNothing) return Grade::kBad;
+  return usable == Usability::kAll ? Grade::kGood : Grade::kPartly;
 }
 
 }  // namespace
 
 Verdict check_verdict(const Check& check) {
   const std::string words = verdict(check);
-  return {words.substr(0, words.find_first_of(":,")), name_of(grade_of(check))};
+  return {words.substr(0, words.find_first_of(":,")), name_of(grade_of(usability(check)))};
 }
 
 std::string check_text(const Cell& cell, const Check& check) {
