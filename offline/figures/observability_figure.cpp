@@ -10,7 +10,6 @@
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "figures/words.hpp"
-#include "noise/noise_floor.hpp"
 #include "noise/weights.hpp"
 #include "numbers/cholesky.hpp"
 #include "plan/design_space.hpp"
@@ -104,13 +103,6 @@ std::vector<PoseGain> gains_of(Gains poses, Gains judged, Eigen::MatrixXd covari
                    sigma_m * judged.mean_sigma()});
   }
   return out;
-}
-
-/// 1 sigma of a coordinate, as in a plan: from repeats, or as stated. The error of the model does
-/// not count.
-double reading_sigma(const Cell& cell, const Measurements& used) {
-  const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
-  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
 }
 
 std::string growth_sentence(const InformationGrowth& growth) {

@@ -4,12 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noise/noise_floor.hpp"
+
 namespace plumb::offline {
 
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured) {
   if (measured.sigma_m.rows() > 0) return measured.sigma_m.cwiseMax(kSmallestSigma_m);
   const double sigma = cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
   return Rows3::Constant(measured.size(), 3, std::max(sigma, kSmallestSigma_m));
+}
+
+double reading_sigma(const Cell& cell, const Measurements& used) {
+  const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
+  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
 }
 
 double excess_sigma(const Rows3& residual, const Rows3& sigma, const std::array<bool, 3>& axis_used,

@@ -17,6 +17,10 @@ inline constexpr double kUnstatedSigma_m = 10e-6;
 /// cell, else 10 um; never below 0.1 um.
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured);
 
+/// 1 sigma of a coordinate for a plan of poses [m]: from repeats if there are enough, else as the
+/// cell states it, else 10 um. The error of the model does not count.
+double reading_sigma(const Cell& cell, const Measurements& used);
+
 /// The scatter tau of the residuals beyond the stated noise, by sum r^2 / (sigma^2 + tau^2) = dof;
 /// 0 if the noise alone explains the residuals. Adding tau^2 to every sigma^2 keeps readings of a
 /// small sigma from outweighing all others while the model lacks an effect. residual, sigma: shape

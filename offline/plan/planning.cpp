@@ -12,7 +12,6 @@
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
-#include "noise/noise_floor.hpp"
 #include "noise/weights.hpp"
 #include "plan/plan_steps.hpp"
 #include "solve/frame_start.hpp"
@@ -60,11 +59,6 @@ std::optional<Calibration> fitted_arm(const Cell& cell, const Measurements& used
   return std::nullopt;
 }
 
-double sigma_of(const Cell& cell, const Measurements& used) {
-  const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
-  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
-}
-
 /// The cell without the two effects that are to be told apart and without learnt trees.
 Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
   std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
@@ -95,7 +89,7 @@ PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanReq
   start.used = measured.size() > 0 ? pick(measured, used_rows(measured)) : measured;
   start.calibration = fitted_arm(cell, start.used, out);
   start.state = start.calibration ? start.calibration->state : nominal_arm(cell);
-  start.sigma_m = sigma_of(cell, start.used);
+  start.sigma_m = reading_sigma(cell, start.used);
   if (measured.has_orientation() || measured.size() == 0)
     start.sigma_rad = cell.measurement.sigma_rad.value_or(0.0);
   PoseRules other = request.rules;
