@@ -12,7 +12,7 @@
 #include "cli/next_line.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
-#include "effects/fitted_laws.hpp"
+#include "effects/registry.hpp"
 #include "fit/controller_base.hpp"
 #include "fit/verdict.hpp"
 #include "noise/main_jump.hpp"
@@ -62,7 +62,7 @@ void read_instead(const std::string& file, Cell& cell) {
 void leave_measurement_effects(Cell& cell, Outcome& outcome) {
   std::vector<std::string> left;
   std::erase_if(cell.effects, [&](const EffectEntry& effect) {
-    const bool leaves = is_measurement_law(find_fitted_law(effect.name));
+    const bool leaves = is_of_measurement(effect.name);
     if (leaves) left.push_back(effect.name);
     return leaves;
   });

@@ -61,6 +61,12 @@ bool is_series(std::string_view name) { return is_searched_as(name, Search::kSer
 bool is_change_point(std::string_view name) { return is_searched_as(name, Search::kChangePoint); }
 bool is_formula(std::string_view name) { return name == effects::Formula::kInfo.name; }
 
+bool is_of_measurement(std::string_view name) {
+  const EffectDescriptor* effect = find_descriptor(name);
+  return effect != nullptr && effect->law != nullptr &&
+         effect->law->domain == EffectDomain::kMeasurement;
+}
+
 bool grows_with_load(const EffectDescriptor& effect) {
   const unsigned needs = effect.law != nullptr ? effect.law->needs : 0U;
   return (needs & (kNeedsMasses | kNeedsPayload)) != 0 || effect.cause == Cause::kYieldingJoint;

@@ -29,6 +29,10 @@ bool is_series(std::string_view name);
 bool is_change_point(std::string_view name);
 bool is_formula(std::string_view name);
 
+/// Whether the effect is an error of one measurement (drift, step, tracker), and so of no other
+/// one. The procedure (settling_lag) is none. False for an unknown name.
+bool is_of_measurement(std::string_view name);
+
 /// Whether the motion changes with the weight that the arm carries.
 bool grows_with_load(const EffectDescriptor& effect);
 

@@ -10,23 +10,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The readings of the cell `arm` beyond the first ones go to later.csv.
+void keep_first_rows(const Sandbox& box, int first) {
+  std::istringstream all(box.read("arm/measurements.csv"));
+  std::string line, head, early, late;
+  int row = 0;
+  while (std::getline(all, line)) {
+    const bool header = line.starts_with("#") || line.starts_with("pose");
+    (header ? head : row < first ? early : late) += line + "\n";
+    if (!header) ++row;
+  }
+  ASSERT_GT(row, first + 20);
+  box.write("arm/measurements.csv", head + early);
+  box.write("later.csv", head + late);
+}
+
 /// A cell with run 1 on most of its readings; the last ones are later.csv.
 class FitFrom : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     box = new Sandbox;
     ASSERT_EQ(box->plumb({"demo", "clean", "arm"}).exit, 0);
-    std::istringstream all(box->read("arm/measurements.csv"));
-    std::string line, head, early, late;
-    int row = 0;
-    while (std::getline(all, line)) {
-      const bool header = line.starts_with("#") || line.starts_with("pose");
-      (header ? head : row < 200 ? early : late) += line + "\n";
-      if (!header) ++row;
-    }
-    ASSERT_GT(row, 220);
-    box->write("arm/measurements.csv", head + early);
-    box->write("later.csv", head + late);
+    keep_first_rows(*box, 200);
     ASSERT_EQ(box->plumb({"-C", "arm", "fit"}).exit, 0);
   }
   static void TearDownTestSuite() { delete box; }
@@ -69,6 +74,25 @@ TEST_F(FitFrom, WhatHappenedToTheEarlierMeasurementIsNotTakenOver) {
   EXPECT_EQ(ran.json()["result"]["from"]["alike"], "same");
   EXPECT_NEAR(ran.json()["result"]["from"]["spread_mm"].get<double>(),
               plain["spread_mm"].get<double>(), 1e-9);
+}
+
+TEST_F(FitFrom, TheProcedureIsThatOfTheLaterMeasurementToo) {
+  const Sandbox own;
+  ASSERT_EQ(own.plumb({"demo", "clean", "arm"}).exit, 0);
+  ASSERT_EQ(own.plumb({"-C", "arm", "simulate", "--force", "--effect", "settling_lag:J2:20",
+                       "--directions", "--poses", "150"})
+                .exit,
+            0);
+  std::string cell = own.read("arm/cell.toml");
+  cell.insert(cell.find("geometry = true") + 15, "\n[effects.settling_lag]\njoints = [\"J2\"]");
+  own.write("arm/cell.toml", cell);
+  keep_first_rows(own, 100);
+  ASSERT_EQ(own.plumb({"-C", "arm", "fit"}).exit, 0);
+  const Ran ran = own.plumb({"-C", "arm", "fit", "--from", "1", "--data", "later.csv"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("settling_lag.J2.T"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.err.find("N-FIT-LEFT"), std::string::npos) << ran.err;
+  EXPECT_EQ(ran.err.find("N-FIT-EARLIER"), std::string::npos) << ran.err;
 }
 
 TEST_F(FitFrom, NumberFolderAndCellFileSayTheSame) {

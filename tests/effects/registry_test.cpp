@@ -19,6 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(EffectRegistry, TheProcedureIsNoErrorOfOneMeasurement) {
+  for (const char* name : {"drift", "step", "tracker"})
+    EXPECT_TRUE(is_of_measurement(name)) << name;
+  for (const char* name : {"settling_lag", "joint_compliance", "geometry", "formula", "no_effect"})
+    EXPECT_FALSE(is_of_measurement(name)) << name;
+}
+
 TEST(EffectRegistry, HasExactlyOneDescriptorForEveryLawInTheOrderOfTheLibrary) {
   std::vector<std::string_view> described;
   for (const EffectDescriptor* effect : effect_descriptors())
