@@ -6,7 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "answers/answers.hpp"
 #include "arm/effect_binding.hpp"
+#include "cell/effect_arguments.hpp"
 #include "cli/cell_writing.hpp"
 #include "cli/effect_options.hpp"
 #include "cli/model_limits.hpp"
@@ -23,7 +25,6 @@
 #include "program/file.hpp"
 #include "runs/run_store.hpp"
 #include "show/diagnose_view.hpp"
-#include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
 #include "show/table.hpp"
@@ -131,18 +132,17 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);
   outcome.result["run_before"] = before.number;
-  show::add_verdict(edited, measured, fitted, outcome.result);
+  const Answers answers = answers_of(edited, measured, fitted, nullptr);
+  show::add_verdict(edited, fitted, answers, outcome.result);
   outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
-                 before_and_after(measured, before.fit, fitted) + "\n" +
-                 outcome.result["verdict"].get<std::string>() + "\n";
+                 before_and_after(measured, before.fit, fitted) + "\n" + answers.sentence + "\n";
   if (change.adds && is_formula(outcome.result["effect"].get<std::string>()) &&
       globals.output == Globals::Output::kJson)
     outcome.result["figure"] = formula_figure(edited, measured, fitted);
-  const std::string next = next_step(fitted, cell.tolerance_m);
   if (options.dry_run) {
     replace_cell(cell, edited, options.dry_run, outcome);
     show::put_null(outcome.result, "run", "--dry-run keeps nothing");
-    return say_next(globals, next, outcome);
+    return say_next(globals, answers.next, outcome);
   }
   // The cell file last: if the run cannot be written, nothing has changed.
   const Run after = keep(edited, measured, std::move(fitted));
@@ -152,7 +152,7 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   const bool rose = usual_held(after.fit).mean > usual_held(before.fit).mean;
   outcome.text += fmt::format("kept as run {}{}\n", after.number,
                               rose ? "" : "; to take it back: " + to_type(globals, change.undo));
-  say_next(globals, rose ? change.undo + "   # takes it back" : next, outcome);
+  say_next(globals, rose ? change.undo + "   # takes it back" : answers.next, outcome);
 }
 
 /// "gear ripple of J2, 7.91 and 17.49 cycles a turn"
@@ -178,7 +178,7 @@ void add(const AddArguments& options, const Globals& globals, Outcome& outcome) 
   const auto entries = options.effect.to_add(cell);
   say_which(cell, entries, outcome);
   Change change{.what = "Added " + together(cell, entries),
-                .undo = "drop " + show::dropping_arguments(cell, entries),
+                .undo = "drop " + dropping_arguments(cell, entries),
                 .effects = cell.effects,
                 .adds = true};
   for (const auto& entry : entries) {
@@ -197,16 +197,16 @@ void add(const AddArguments& options, const Globals& globals, Outcome& outcome) 
   std::vector<EffectEntry> there;
   for (const auto& e : cell.effects)
     if (!is_geometry(e.name)) there.push_back(e);
-  throw Failure(Exit::kInput,
-                {.code = "E-DROP-NONE",
-                 .message = is_geometry(entry.name)
-                                ? "geometry cannot be dropped: every model has it"
-                                : fmt::format("the model has no {}", in_words(cell, entry)),
-                 .place = Place{.file = cell.file.string()},
-                 .help = there.empty() ? "it contains geometry alone"
-                                       : fmt::format("plumb drop {}",
-                                                     fmt::join(show::adding_arguments(cell, there),
-                                                               ", or: plumb drop "))});
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-DROP-NONE",
+       .message = is_geometry(entry.name)
+                      ? "geometry cannot be dropped: every model has it"
+                      : fmt::format("the model has no {}", in_words(cell, entry)),
+       .place = Place{.file = cell.file.string()},
+       .help = there.empty() ? "it contains geometry alone"
+                             : fmt::format("plumb drop {}", fmt::join(adding_arguments(cell, there),
+                                                                      ", or: plumb drop "))});
 }
 
 void drop(const AddArguments& options, const Globals& globals, Outcome& outcome) {
@@ -221,7 +221,7 @@ void drop(const AddArguments& options, const Globals& globals, Outcome& outcome)
     effects = less;
   }
   std::vector<std::string> undo;
-  for (const auto& words : show::adding_arguments(cell, taken_out(cell.effects, effects)))
+  for (const auto& words : adding_arguments(cell, taken_out(cell.effects, effects)))
     undo.push_back("add " + words);
   make({.what = "Dropped " + together(cell, entries),
         .undo = fmt::format("{}", fmt::join(undo, " && plumb ")),

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "answers/answers.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/next_line.hpp"
 #include "cli/run_number.hpp"
@@ -57,14 +58,15 @@ void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   stand_on_base_of(last, cell, measured);
   measured.tables = {};
   const auto comparison = compare::comparison(cell, measured, last.fit);
-  outcome.result = show::compare_json(cell, measured, comparison, last);
-  outcome.text = show::compare_text(cell, measured, comparison, last);
+  const Answers answers = answers_of(cell, measured, last);
+  outcome.result = show::compare_json(cell, measured, comparison, last, answers);
+  outcome.text = show::compare_text(cell, measured, comparison, last, answers);
   if (runs.size() > 1) {
     outcome.result.update(show::runs_json(runs));
     outcome.text =
         show::runs_text(runs) + "\nRun " + std::to_string(last.number) + ": " + outcome.text;
   }
-  say_next(globals, show::after_comparison(cell, comparison, last), outcome);
+  say_next(globals, show::after_comparison(comparison, answers), outcome);
 }
 
 }  // namespace

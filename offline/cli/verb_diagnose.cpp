@@ -6,6 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "answers/after_diagnosis.hpp"
+#include "answers/answers.hpp"
+#include "answers/kept_diagnosis.hpp"
 #include "cli/cell_writing.hpp"
 #include "cli/next_line.hpp"
 #include "cli/progress.hpp"
@@ -13,7 +16,6 @@
 #include "diagnose/diagnosis.hpp"
 #include "effects/registry.hpp"
 #include "fit/verdict.hpp"
-#include "report/kept_diagnosis.hpp"
 #include "runs/run_store.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/units.hpp"
@@ -63,15 +65,22 @@ bool differs(const NoiseFloor& found, const NoiseFloor& kept) {
 
 /// Writes findings and noise floor beside the run, where compare and report find them. A folder
 /// that cannot be written is no error: compare and report then do without.
-void keep_what_was_found(const DiagnoseArguments& options, const Cell& cell, const Run& run,
-                         const Diagnosis& found) {
-  if (!options.apply) report::keep_diagnosis(run, found);
+void keep_what_was_found(const Cell& cell, const Run& run, const Diagnosis& found) {
+  if (found.added.empty()) {
+    Diagnosis of_this_run = found;
+    of_this_run.finding_after.reset();
+    keep_diagnosis(run, of_this_run);
+  }
   // If effects were added the floor belongs to the new model, and its run keeps it.
   if (!found.added.empty() || !differs(found.floor, run.fit.floor)) return;
   try {
     keep_floor(cell, run, found.floor);
   } catch (const Failure&) {
   }
+}
+
+void answer(const Answers& answers, Outcome& outcome) {
+  outcome.result["finding"] = to_json(answers);
 }
 
 /// False if the effects were refused.
@@ -97,6 +106,8 @@ bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
   fitted.floor.inferred_m = found.floor.inferred_m;
   const Run run = keep(edited, measured, std::move(fitted));
   keep_floor(edited, run, run.fit.floor);
+  keep_diagnosis(run, found);
+  answer(answers_of(edited, measured, run.fit, &found), outcome);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
   return true;
@@ -121,14 +132,18 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                      }});
   }();
   outcome.remark(found.remarks);
-  if (before && !options.dry_run) keep_what_was_found(options, cell, *before, found);
+  if (before && !options.dry_run) keep_what_was_found(cell, *before, found);
   outcome.result = show::diagnose_json(cell, found);
   outcome.verdicts = {{found.text, show::class_of(found.finding)}};
   outcome.text = show::diagnose_text(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);
+  if (before)
+    answer(answers_of(cell, measured, before->fit, &found), outcome);
+  else
+    show::put_null(outcome.result, "finding", "--dry-run fits nothing");
   if (options.apply && !keep_applied(options, cell, measured, found, before_m, outcome))
     return say_next(globals, "compare   # where does the model fail?", outcome);
-  say_next(globals, show::after_diagnosis(cell, found), outcome);
+  say_next(globals, after_diagnosis(cell, found), outcome);
 }
 
 }  // namespace

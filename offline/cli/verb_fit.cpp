@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "answers/answers.hpp"
 #include "cell/earlier_arm.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/next_line.hpp"
@@ -212,15 +213,15 @@ void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) 
   Fit fitted = fit_with_progress(cell, measured, outcome);
   const auto floor = floor_of_last_diagnosis(cell, measured, fitted);
   if (floor) fitted.floor.inferred_m = floor->inferred_m;
-  outcome.result = show::fit_json(cell, measured, fitted);
-  outcome.text = show::fit_text(cell, measured, fitted);
+  const Answers answers = answers_of(cell, measured, fitted, nullptr);
+  outcome.result = show::fit_json(cell, measured, fitted, answers);
+  outcome.text = show::fit_text(cell, measured, fitted, answers);
   outcome.text += jump_words(cell, measured, fitted);
-  const std::string next = next_step(fitted, cell.tolerance_m);
   const auto& like = fitted.calibration.likeness;
   const bool alike = options.from && like && like->kind != Likeness::Kind::kUnlike;
   keep_run(options, cell, measured, std::move(fitted), floor, outcome);
   if (alike && outcome.result["run"].is_number()) outcome.text += to_go_on(options, cell);
-  if (!options.from) say_next(globals, next, outcome);
+  if (!options.from) say_next(globals, answers.next, outcome);
 }
 
 }  // namespace

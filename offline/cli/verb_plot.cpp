@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "answers/kept_diagnosis.hpp"
 #include "bench/benchmark.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/progress.hpp"
@@ -18,7 +19,6 @@
 #include "figures/run_figures.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
-#include "report/kept_diagnosis.hpp"
 #include "runs/earlier_runs.hpp"
 #include "runs/run_store.hpp"
 
@@ -78,7 +78,7 @@ std::string evidence_of(const PlotArguments& options, const Cell& cell,
                               "be added to it",
                    .help = "leave --run out: plumb plot " + options.name});
   if (const auto run = current_run(cell, measured))
-    if (const auto kept = report::kept_diagnosis(*run))
+    if (const auto kept = kept_diagnosis(*run))
       return figures::evidence(cell, *kept, options.width);
   Progress progress(fmt::format("diagnosing {} poses", measured.size()));
   const Diagnosis found =

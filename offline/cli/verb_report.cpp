@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "answers/answers.hpp"
+#include "answers/kept_diagnosis.hpp"
 #include "cell/iso_time.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/model_limits.hpp"
@@ -18,7 +20,6 @@
 #include "program/file.hpp"
 #include "program/output_files.hpp"
 #include "program/shell_word.hpp"
-#include "report/kept_diagnosis.hpp"
 #include "report/pdf.hpp"
 #include "report/report.hpp"
 #include "runs/earlier_runs.hpp"
@@ -59,7 +60,7 @@ Run run_to_report(const ReportArguments& options, const Cell& cell,
 
 /// What was found before, or is found now and kept for the next report.
 void diagnose_for(const ReportArguments& options, report::ReportData& data, Outcome& outcome) {
-  if ((data.diagnosis = report::kept_diagnosis(data.run))) {
+  if ((data.diagnosis = kept_diagnosis(data.run))) {
     data.diagnosis_is_kept = true;
     return;
   }
@@ -82,7 +83,7 @@ void diagnose_for(const ReportArguments& options, report::ReportData& data, Outc
         diagnose(data.cell, data.measured,
                  {.apply = false, .tell = [&](const std::string& step) { progress.at(step); }});
     outcome.remark(data.diagnosis->remarks);
-    if (!options.write.dry_run) report::keep_diagnosis(data.run, *data.diagnosis);
+    if (!options.write.dry_run) keep_diagnosis(data.run, *data.diagnosis);
   } catch (const Failure& failure) {
     data.why_no_diagnosis = "These data cannot be diagnosed: " + first_message(failure) + ".";
   }
@@ -128,6 +129,7 @@ void put_result(const ReportArguments& options, const report::ReportData& data,
   else
     put_null(out, "run", "--dry-run keeps nothing");
   out["verdict"] = made.verdict;
+  out["finding"] = to_json(data.answers);
   if (made.good)
     out["good"] = *made.good;
   else
@@ -163,6 +165,7 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
   data.earlier = earlier_runs(run, cell, measured);
   data.created = iso_utc(std::time(nullptr));
   diagnose_for(options, data, outcome);
+  data.answers = answers_of(cell, measured, run.fit, data.diagnosis ? &*data.diagnosis : nullptr);
   compile_for(data);
   data.commands = commands_of(options, globals, data, file);
   Progress progress("writing the report");
@@ -183,7 +186,7 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
   if (data.diagnosis_is_kept)
     outcome.text +=
         fmt::format("Its diagnosis was made earlier and kept with run {}.\n", run.number);
-  say_next(globals, next_step(run.fit, cell.tolerance_m), outcome);
+  say_next(globals, data.answers.next, outcome);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
 #include "diagnose/alternatives.hpp"
+#include "diagnose/certainty.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_domain.hpp"
@@ -75,15 +76,6 @@ std::string fall_words(double before_m, double after_m) {
     return fmt::format("{} -> {} on unseen poses", digits(before_m), mm(after_m));
   return fmt::format("the error on unseen poses does not fall ({} -> {})", mm(before_m),
                      mm(after_m));
-}
-
-/// The first candidate explains hardly any of what is missing. As long as the true cause is not in
-/// the model, its remains look like small effects, and evidence for these may deceive.
-bool explains_little(const Diagnosis& d) {
-  const double after_m = d.candidates.front().alone.mean;
-  return d.floor.source != NoiseFloor::Source::kNone &&
-         after_m > kFarAboveFloor * d.floor.mean_m * d.floor.inferred_times() &&
-         after_m > (1.0 - kLittleShare) * d.before.mean;
 }
 
 /// ", or a law that these poses cannot show: bending of links (link_flexure:J2) (no mass is
@@ -175,16 +167,6 @@ const Addition* moved_otherwise(const Cell& cell, const Diagnosis& d) {
   return nullptr;
 }
 
-/// The candidate of that key, if the evidence hardly sets it apart from the first; or null.
-const Candidate* near_rival_of_key(const Cell& cell, const Diagnosis& d, const std::string& key) {
-  const auto found =
-      std::find_if(d.candidates.begin(), d.candidates.end(), [&](const Candidate& other) {
-        return key == key_of(cell, other.entry) &&
-               d.candidates.front().ln_bayes - other.ln_bayes < kCertain_nats;
-      });
-  return found == d.candidates.end() ? nullptr : &*found;
-}
-
 std::string sure_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
   if (const Addition* added = moved_otherwise(cell, d))
@@ -198,9 +180,7 @@ std::string sure_words(const Cell& cell, const Diagnosis& d) {
         "what that leaves may be mistaken for this.",
         100.0 * (1.0 - best.alone.mean / d.before.mean));
   const Candidate* const rival = near_rival(cell, d);
-  // Ahead of nothing, and of a rival that is near.
-  const double ahead =
-      std::min(best.ln_bayes, rival == nullptr ? best.ln_bayes : best.ln_bayes - rival->ln_bayes);
+  const double ahead = nats_ahead(cell, d);
   std::string out = ahead >= kCertain_nats      ? "Certain"
                     : ahead >= kVeryLikely_nats ? "Very likely"
                                                 : "Likely";
@@ -285,33 +265,6 @@ std::string tie_words(const Cell& cell, const Diagnosis& d) {
                      in_words(cell, first), in_words(cell, *d.tied),
                      separating_measurement(first.entry, *d.tied));
 }
-
-}  // namespace
-
-bool falls(double before_m, double after_m) {
-  return digits(after_m) != digits(before_m) && after_m < before_m;
-}
-
-bool may_be_another(const Diagnosis& d) { return !d.alternatives.empty() || d.slow_motion; }
-
-bool is_either(const Diagnosis& d, const EffectEntry& entry) {
-  if (!may_be_another(d)) return false;
-  return same_effect(d.candidates.front().entry, entry) ||
-         std::any_of(d.alternatives.begin(), d.alternatives.end(),
-                     [&](const Alternative& other) { return same_effect(other.entry, entry); });
-}
-
-bool is_near_rival(const Cell& cell, const Diagnosis& d, const std::string& key) {
-  return near_rival_of_key(cell, d, key) != nullptr;
-}
-
-const Candidate* near_rival(const Cell& cell, const Diagnosis& d) {
-  for (const auto& key : d.candidates.front().confounded_with)
-    if (const Candidate* rival = near_rival_of_key(cell, d, key)) return rival;
-  return nullptr;
-}
-
-namespace {
 
 std::string finding_text(const Cell& cell, const Diagnosis& d) {
   switch (d.finding) {

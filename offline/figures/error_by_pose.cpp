@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "compare/worst_band.hpp"
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "draw/text_width.hpp"
 #include "figures/error_axis.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/words.hpp"
-#include "figures/worst_band.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -34,11 +34,12 @@ std::string error_by_pose(const RunResults& results, double width) {
                    [&](int a, int b) { return results.after(a) < results.after(b); });
   const std::string kind = held ? ", held out" : ", fitted";
   const ErrorAxis axis = error_axis(results);
-  draw::SheetText text{.title = "Error of every pose, sorted",
-                       .sentence = where_sentence(results),
-                       .legend = {{.words = "before" + kind, .mark = before},
-                                  {.words = "after" + kind, .mark = after}},
-                       .notes = std::move(notes)};
+  draw::SheetText text{
+      .title = "Error of every pose, sorted",
+      .sentence = compare::where_sentence(results.cell, results.measured, results.run.fit),
+      .legend = {{.words = "before" + kind, .mark = before},
+                 {.words = "after" + kind, .mark = after}},
+      .notes = std::move(notes)};
   add_beyond(results, axis, rows, text);
   draw::Sheet sheet(width, std::move(text));
   draw::Panel panel(sheet.svg(), sheet.room(380.0),

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "arm/predicted_points.hpp"
+#include "compare/worst_band.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/words.hpp"
 #include "figures/workspace_views.hpp"
-#include "figures/worst_band.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline::figures {
@@ -107,7 +107,7 @@ std::string error_map(const RunResults& results, double width) {
     notes.push_back(note);
   draw::Sheet sheet(
       width, {.title = fmt::format("Errors over the workspace, arrows {:g} times enlarged", factor),
-              .sentence = where_sentence(results),
+              .sentence = compare::where_sentence(results.cell, results.measured, results.run.fit),
               .legend = {{.words = "before", .line = draw::LineStyle{Tone::kVermilion, 0.9}},
                          {.words = "after", .line = draw::LineStyle{Tone::kBlue, 1.8}}},
               .notes = std::move(notes)});

@@ -5,9 +5,9 @@
 
 #include "arm/arm_state.hpp"
 #include "arm/predicted_points.hpp"
+#include "compare/pose_words.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
-#include "fit/verdict.hpp"
 #include "runs/earlier_runs.hpp"
 
 namespace plumb::offline::figures {
@@ -32,10 +32,7 @@ RunResults results_of(const Cell& cell, const Measurements& measured, const Run&
 }
 
 std::vector<int> usual_rows(const RunResults& results, std::vector<int> rows) {
-  const Fit& fit = results.run.fit;
-  const auto single = single_bad(fit);
-  return without_outliers(without_outliers(std::move(rows), fit.calibration.outliers),
-                          {single.begin(), single.end()});
+  return compare::usual_rows(results.run.fit, std::move(rows));
 }
 
 std::vector<std::optional<Parameter>> fitted_parameters(const Run& run) {

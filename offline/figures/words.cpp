@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/text_width.hpp"
 #include "draw/ticks.hpp"
 #include "effects/registry.hpp"
 #include "fit/verdict.hpp"
@@ -17,7 +16,6 @@ namespace plumb::offline::figures {
 namespace {
 
 constexpr double kMicrometresBelow_m = 0.2e-3;  // smaller lengths are shown in um
-constexpr double kNamed_px = 160.0;             // a longer name of a pose is cut
 constexpr std::size_t kWorstShare = 10;
 
 std::string counted_poses(std::size_t n, const std::string& kind) {
@@ -32,46 +30,10 @@ std::string plain_name(const std::string& effect) {
   return out;
 }
 
-/// Different names, in the order of the rows.
-std::vector<std::string> names_of(const RunResults& results, std::span<const int> rows,
-                                  std::size_t most) {
-  std::vector<std::string> out;
-  for (const int row : rows) {
-    const std::string name = draw::shortened(results.pose(row), 12.0, kNamed_px);
-    if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    if (out.size() == most) break;
-  }
-  return out;
-}
-
 }  // namespace
 
 LengthUnit unit_for(double largest_m) {
   return largest_m < kMicrometresBelow_m ? LengthUnit{"µm", 1e6} : LengthUnit{"mm", 1e3};
-}
-
-std::string length_text(double metres) {
-  if (std::abs(metres) < 0.01e-3) return draw::digits(metres * 1e6, 2) + " µm";
-  return draw::digits(metres * 1e3, 2) + " mm";
-}
-
-std::string judged_words(const RunResults& results) {
-  return counted_poses(usual_rows(results, results.judged()).size(),
-                       results.held.empty() ? "fitted" : "held-out") +
-         without_words(results.run.fit);
-}
-
-std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most) {
-  const auto names = names_of(results, rows, most);
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return out;
-}
-
-std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most) {
-  const char* word = names_of(results, rows, most).size() == 1 ? "pose " : "poses ";
-  return word + pose_names(results, rows, most);
 }
 
 std::string effect_names(const std::vector<std::string>& effects, const std::string& between) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/pose_words.hpp"
 #include "draw/sheet.hpp"
 #include "figures/run_results.hpp"
 
@@ -18,17 +19,16 @@ struct LengthUnit {
 };
 LengthUnit unit_for(double largest_m);
 
-/// "0.41 mm", "12 µm": two significant digits.
-std::string length_text(double metres);
+using compare::length_text;
 
-/// "12 held-out poses" or, without any, "80 fitted poses"; one is "1 held-out pose". Of those that
-/// count: "57 held-out poses (without 3 readings that stand out)".
-std::string judged_words(const RunResults& results);
-
-/// "12, 57 and 80", or with the word before them, "poses 12, 57 and 80" or "pose 12"; at most
-/// `most` names, long ones cut.
-std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most);
-std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most);
+/// The words of compare/pose_words.hpp for the readings and the fit of a run.
+inline std::string judged_words(const RunResults& results) {
+  return compare::judged_words(results.run.fit);
+}
+inline std::string pose_list(const RunResults& results, std::span<const int> rows,
+                             std::size_t most) {
+  return compare::pose_list(results.measured, rows, most);
+}
 
 /// The plain names of effects, each once, as in `plumb explain`: "gear ripple (12 times) and
 /// geometry" with " and " between them.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/cell_summary.hpp"
 
+#include "answers/kept_answers.hpp"
 #include "runs/kept_fields.hpp"
 
 namespace plumb::offline::fleet {
 namespace {
 
-constexpr const char* kSchema = "fleet.cell/2";
+constexpr const char* kSchema = "fleet.cell/3";
 
 }  // namespace
 
@@ -55,7 +56,7 @@ void describe(Fields& fields, typename Fields::template Of<CellSummary>& cell) {
   fields("tolerance_m", cell.tolerance_m);
   fields("held_out", cell.held);
   fields("noise_floor_m", cell.floor_m);
-  fields("verdict", cell.verdict);
+  fields("answers", cell.answers);
   fields("verdict_head", cell.verdict_head);
   fields("verdict_class", cell.verdict_class);
   fields("good", cell.good);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/answers.hpp"
 #include "noise/error_stats.hpp"
 #include "program/json.hpp"
 
@@ -55,9 +56,9 @@ struct CellSummary {
   std::string model;  // equal for arms of one nominal chain
   double tolerance_m = 0.0;
   ErrorStats held;
-  double floor_m = 0.0;      // mean error that noise alone would leave; 0: not known
-  std::string verdict;       // one sentence, as fit says it; empty: it could not be fitted
-  std::string verdict_head;  // the same in few words
+  double floor_m = 0.0;                   // mean error that noise alone would leave; 0: not known
+  Answers answers;                        // what people ask first; empty: it could not be fitted
+  std::string verdict_head;               // the same in few words
   std::string verdict_class = "unknown";  // "good", "partly", "bad", "unknown"
   bool good = false;                      // the held-out error keeps the tolerance
   std::vector<std::string> effects;

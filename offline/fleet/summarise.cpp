@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "answers/answers.hpp"
 #include "arm/effect_binding.hpp"
 #include "cell/fleet_priors.hpp"
 #include "cell/setups.hpp"
-#include "compare/full_verdict.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
@@ -95,10 +95,13 @@ std::vector<EffectEvidence> evidence_of(const Diagnosis& found) {
 }
 
 /// Of the cell without what other arms taught, so that no arm is heard twice.
-CellDiagnosis diagnosis_of(Cell cell, const MeasurementFiles& measured) {
+Diagnosis diagnosis_alone(Cell cell, const MeasurementFiles& measured) {
   std::erase_if(cell.fit.priors, [](const Prior& prior) { return prior.of_fleet; });
   cell.fit.sister_odds.clear();
-  const Diagnosis found = diagnose(cell, measured, {});
+  return diagnose(cell, measured, {});
+}
+
+CellDiagnosis summary_of(const Cell& cell, const Diagnosis& found) {
   CellDiagnosis out;
   out.finding = name_of(found.finding);
   out.words = found.text;
@@ -144,7 +147,6 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   out.held = usual_held(fit);
   out.floor_m = fit.floor.mean_m;
   out.good = fit.held.n > 0 && keeps(usual_held(fit), cell.tolerance_m);
-  out.verdict = compare::full_verdict(cell, measured, fit);
   out.verdict_head = verdict_head(fit, cell.tolerance_m);
   out.verdict_class = name_of(grade(fit, cell.tolerance_m));
   put_numbers(
@@ -152,7 +154,12 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
                      measured, fit_rows(fit.split), fit.calibration.state),
       out);
   check_finite(out);
-  if (asked == Asked::kDiagnosis) out.diagnosis = diagnosis_of(cell, measured);
+  std::optional<Diagnosis> found;
+  if (asked == Asked::kDiagnosis) {
+    found = diagnosis_alone(cell, measured);
+    out.diagnosis = summary_of(cell, *found);
+  }
+  out.answers = answers_of(cell, measured, fit, found ? &*found : nullptr);
   out.ok = true;
 }
 

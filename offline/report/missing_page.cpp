@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "answers/after_diagnosis.hpp"
 #include "diagnose/effect_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
@@ -57,7 +58,7 @@ Html missing_page(const ReportData& data, const ReportFigures& figures) {
                                d.outliers.size() == 1 ? "it" : "them", listed_words(d.outliers)));
   html.heading("What to do next");
   std::vector<std::string> next;
-  for (const auto& words : show::after_diagnosis(data.cell, d)) next.push_back("plumb " + words);
+  for (const auto& words : after_diagnosis(data.cell, d)) next.push_back("plumb " + words);
   html.preformatted("Commands to type next", fmt::format("{}", fmt::join(next, "\n")));
   html.table(untestable_table(d));
   return html;

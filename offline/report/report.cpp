@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report.hpp"
 
-#include "compare/full_verdict.hpp"
 #include "report/document.hpp"
 #include "report/pages.hpp"
 
@@ -27,7 +26,7 @@ Report make_report(const ReportData& data) {
   out.html = document(
       "Calibration of " + (data.cell.name.empty() ? std::string("cell") : data.cell.name), pages);
   out.pages = static_cast<int>(pages.size());
-  out.verdict = compare::full_verdict(data.cell, data.measured, data.run.fit);
+  out.verdict = data.answers.sentence;
   out.good = is_good(data.run, data.cell.tolerance_m);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/answers.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "compare/comparison.hpp"
@@ -32,6 +33,8 @@ struct ReportData {
   std::optional<Diagnosis> diagnosis = {};  // of the present cell; else why there is none
   std::string why_no_diagnosis = {};
   bool diagnosis_is_kept = false;  // found earlier, by plumb diagnose or another report
+
+  Answers answers = {};  // with the diagnosis, if there is one
 
   struct Controller {
     format::Model model;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "compare/full_verdict.hpp"
 #include "draw/svg.hpp"
 #include "fit/verdict.hpp"
 #include "plumb/format/version.hpp"
@@ -26,7 +25,7 @@ void put_verdict(const ReportData& data, Html& html) {
   html.raw(fmt::format(
       "<div class=\"verdict {}\" role=\"note\"><strong>{} {}</strong><p>{}</p></div>\n", found,
       verdict_mark(found), draw::escaped(verdict_head(data.run.fit, data.cell.tolerance_m)),
-      draw::escaped(compare::full_verdict(data.cell, data.measured, data.run.fit))));
+      draw::escaped(data.answers.sentence)));
 }
 
 /// Whether the file says the tolerance, outside comments.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "figures/worst_band.hpp"
+#include "compare/worst_band.hpp"
 #include "report/pages.hpp"
 #include "show/compare_view.hpp"
 #include "show/compare_words.hpp"
@@ -32,7 +32,7 @@ show::Table worst_table(const ReportData& data) {
 
 Html where_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
-  html.paragraph(figures::where_sentence(data.results));
+  html.paragraph(compare::where_sentence(data.cell, data.measured, data.run.fit));
   const auto& profiles = data.comparison.profiles;
   if (std::any_of(profiles.begin(), profiles.end(), [](const auto& p) { return p.matters; }))
     html.paragraph(show::where_words(data.comparison));

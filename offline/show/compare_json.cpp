@@ -189,7 +189,7 @@ Json drifts_json(const Cell& cell, const Measurements& measured, const Changes& 
 }  // namespace
 
 Json compare_json(const Cell& cell, const Measurements& measured, const Comparison& comparison,
-                  const Run& run) {
+                  const Run& run, const Answers& answers) {
   const Fit& fit = run.fit;
   Json out = stats_json(comparison.stats);
   add_interval(held_out_interval(measured, fit), out);
@@ -202,7 +202,7 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   add_floor(fit.floor, out);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["within_tolerance_pct"] = 100.0 * comparison.within_tolerance;
-  add_verdict(cell, measured, fit, out);
+  add_verdict(cell, fit, answers, out);
   out["worst"] = worst_json(comparison);
   out["where"] = where_words(comparison);
   out["by"] = profiles_json(comparison);

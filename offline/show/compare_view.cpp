@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/full_verdict.hpp"
 #include "fit/verdict.hpp"
 #include "noise/main_jump.hpp"
 #include "show/compare_words.hpp"
@@ -120,8 +119,7 @@ std::string setups_text(const Comparison& comparison) {
 /// A jump is called the cause only if it explains enough of the squared error. Otherwise something
 /// else is missing, and that may look like a jump where the poses change.
 std::string compare_verdict(const Cell& cell, const Measurements& measured,
-                            const Comparison& comparison, const Run& run) {
-  std::string error = compare::full_verdict(cell, measured, run.fit);
+                            const Comparison& comparison, const std::string& error) {
   const auto& steps = comparison.changes.steps;
   if (steps.empty() || !is_clear(steps.front())) return error;
   const double share = share_of_error(steps.front(), comparison.stats.rms,
@@ -137,29 +135,21 @@ std::string compare_verdict(const Cell& cell, const Measurements& measured,
 
 }  // namespace
 
-std::string after_comparison(const Cell& cell, const Comparison& comparison, const Run& run) {
+std::string after_comparison(const Comparison& comparison, const Answers& answers) {
   if (!comparison.changes.steps.empty() || !comparison.changes.drifts.empty())
     return "diagnose   # puts it into the model, if the readings support it";
-  switch (quality(run.fit, cell.tolerance_m)) {
-    case Quality::kWorstPoseIsFar:
-    case Quality::kGoodButForSome:
-      return "check   # is one of the readings wrong?";
-    case Quality::kLimitedByNoise:
-    case Quality::kPerhapsLimitedByJoints:
-      return "check   # how large are noise and rounding of the readings?";
-    default:
-      return next_step(run.fit, cell.tolerance_m);
-  }
+  return answers.next.starts_with("compare") ? "plan --n 30   # which poses to measure next"
+                                             : answers.next;
 }
 
 std::string compare_text(const Cell& cell, const Measurements& measured,
-                         const Comparison& comparison, const Run& run) {
+                         const Comparison& comparison, const Run& run, const Answers& answers) {
   const double tolerance_m = cell.tolerance_m;
   const Table worst = worst_table(comparison);
-  return compare_verdict(cell, measured, comparison, run) + "\n\n" + error_text(measured, run.fit) +
-         within_text(comparison, run.fit, tolerance_m) + setups_text(comparison) +
-         findings_text(cell, measured, comparison, run.fit) + "\n" + worst.caption + "\n" +
-         text_of(worst) + where_text(comparison);
+  return compare_verdict(cell, measured, comparison, answers.sentence) + "\n\n" +
+         error_text(measured, run.fit) + within_text(comparison, run.fit, tolerance_m) +
+         setups_text(comparison) + findings_text(cell, measured, comparison, run.fit) + "\n" +
+         worst.caption + "\n" + text_of(worst) + where_text(comparison);
 }
 
 Table worst_table(const Comparison& comparison) {

@@ -6,12 +6,11 @@
 #include <algorithm>
 
 #include "diagnose/alternatives.hpp"
-#include "diagnose/diagnosis_text.hpp"
+#include "diagnose/certainty.hpp"
 #include "diagnose/effect_domain.hpp"
 #include "diagnose/effect_words.hpp"
 #include "diagnose/scan.hpp"
 #include "fit/verdict.hpp"
-#include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
 #include "show/table.hpp"
@@ -95,18 +94,6 @@ std::string not_testable_text(const Diagnosis& d) {
   return out;
 }
 
-bool good_enough(const Cell& cell, const ErrorStats& held) {
-  return held.n > 0 && held.p95 <= cell.tolerance_m;
-}
-
-std::string separating(const Cell& cell, const EffectEntry& a, const EffectEntry& b) {
-  return fmt::format("plan --separate {},{}", planning_argument(cell, a),
-                     planning_argument(cell, b));
-}
-
-constexpr const char* kMeasure = "plan --n 30   # which poses to measure next";
-constexpr const char* kCompile = "compile   # the model file for the controller";
-
 }  // namespace
 
 const char* class_of(Finding finding) {
@@ -164,38 +151,6 @@ std::string diagnose_text(const Cell& cell, const Diagnosis& d, Candidates shown
   if (!d.outliers.empty())
     out += fmt::format("\nLeft out, the others contradict them: {}\n", fmt::join(d.outliers, ", "));
   return out + not_testable_text(d);
-}
-
-std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
-  if (d.gravity && d.gravity->certain)
-    return {"diagnose   # once cell.toml says gravity = " + gravity_text(d.gravity->found)};
-  const Finding finding = d.finding_after.value_or(d.finding);
-  if (finding == Finding::kMissing) {
-    const Candidate& first = d.candidates.front();
-    if (!falls(d.before.mean, first.alone.mean))
-      return {good_enough(cell, d.before) ? kCompile : kMeasure};
-    std::vector<double> rows;
-    for (const Move& move : first.moves) rows.push_back(move.after_row);
-    std::vector<std::string> out{
-        "add " + adding_arguments(cell, first.entry, rows.empty() ? first.cycles : rows),
-        "diagnose --apply   # all that is supported, one by one"};
-    if (!d.alternatives.empty())
-      out.insert(out.begin(), separating(cell, first.entry, d.alternatives.front().entry) +
-                                  "   # which of them is it?");
-    else if (const Candidate* const rival = near_rival(cell, d))
-      out.push_back(separating(cell, first.entry, rival->entry) + "   # to be sure which it is");
-    return out;
-  }
-  if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
-  const bool step_or_slow =
-      d.undecided ? d.undecided->slow_motion.has_value() : d.slow_motion && !d.finding_after;
-  if (step_or_slow) return {"compare   # the errors in order of time: do they jump, or creep?"};
-  if (d.undecided)
-    for (const auto& other : d.undecided->alternatives)
-      if (other.compiled != is_compiled(d.undecided->entry))
-        return {separating(cell, d.undecided->entry, other.entry)};
-  if (d.tied) return {separating(cell, d.candidates.front().entry, *d.tied)};
-  return {good_enough(cell, d.after) ? kCompile : kMeasure};
 }
 
 }  // namespace plumb::offline::show

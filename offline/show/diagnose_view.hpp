@@ -33,9 +33,6 @@ Table candidates_table(const Cell& cell, const Diagnosis& diagnosis, std::size_t
 /// sentence a line. There must be a candidate.
 std::string first_candidate_text(const Cell& cell, const Diagnosis& diagnosis);
 
-/// The commands to type next, without `plumb`; the first helps most.
-std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& diagnosis);
-
 /// ["J2", "J3"]
 Json joints_json(const Cell& cell, const EffectEntry& effect);
 

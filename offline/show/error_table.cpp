@@ -49,6 +49,27 @@ std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor) {
 
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
 
+const char* source_name(NoiseFloor::Source source) {
+  switch (source) {
+    case NoiseFloor::Source::kRepeats:
+      return "repeats";
+    case NoiseFloor::Source::kSigma:
+      return "sigma";
+    default:
+      return "none";
+  }
+}
+
+/// What was measured or stated of the noise, apart from what is only inferred.
+Json floor_json(const NoiseFloor& floor) {
+  const bool known = floor.source != NoiseFloor::Source::kNone;
+  Json out{{"source", source_name(floor.source)}};
+  put(out, "measured_mm", known ? to_mm(floor.mean_m) : NAN, kNoFloor);
+  put(out, "inferred_mm", floor.inferred_m > 0.0 ? to_mm(floor.inferred_m) : NAN,
+      "no diagnosis takes what the model leaves for scatter of the joints");
+  return out;
+}
+
 }  // namespace
 
 std::string text_of(const MeanInterval& interval) {
@@ -116,6 +137,7 @@ void add_orientation(const MeasuredOrientations& judged, const std::vector<std::
 }
 
 void add_floor(const NoiseFloor& floor, Json& out) {
+  out["noise_floor"] = floor_json(floor);
   if (floor.source == NoiseFloor::Source::kNone) {
     put_null(out, "noise_floor_mm", kNoFloor);
     put_null(out, "noise_floor_rms_mm", kNoFloor);
@@ -123,7 +145,7 @@ void add_floor(const NoiseFloor& floor, Json& out) {
   }
   put(out, "noise_floor_mm", to_mm(floor.mean_m));
   put(out, "noise_floor_rms_mm", to_mm(floor.rms_m));
-  out["noise_floor_source"] = floor.source == NoiseFloor::Source::kRepeats ? "repeats" : "sigma";
+  out["noise_floor_source"] = source_name(floor.source);
   if (floor.inferred_m > 0.0) out["inferred_floor_mm"] = to_mm(floor.inferred_m);
 }
 

@@ -36,8 +36,9 @@ void add_turns(const ErrorStats& turn_held, Json& out);
 void add_orientation(const MeasuredOrientations& judged, const std::vector<std::string>& meant,
                      Json& out);
 
-/// noise_floor_mm (mean) and noise_floor_rms_mm, null with reason if nothing is known;
-/// inferred_floor_mm where a diagnosis takes what is left for scatter of the joints.
+/// noise_floor: {measured_mm, inferred_mm, source}; and the same as noise_floor_mm (mean) and
+/// noise_floor_rms_mm, null with reason if nothing is known; inferred_floor_mm where a diagnosis
+/// takes what is left for scatter of the joints.
 void add_floor(const NoiseFloor& floor, Json& out);
 
 }  // namespace plumb::offline::show

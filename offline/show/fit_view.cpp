@@ -7,7 +7,6 @@
 
 #include "cell/formula_reader.hpp"
 #include "cell/setups.hpp"
-#include "compare/full_verdict.hpp"
 #include "effects/registry.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
@@ -172,7 +171,8 @@ std::string measurement_text(const Cell& cell, const ArmState& state,
       f.q[3], how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
 }
 
-Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
+Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
+              const Answers& answers) {
   const Calibration& c = fit.calibration;
   Json out{{"poses_fit", fit.fit.n}, {"poses_held_out", fit.held.n}};
   out["folds"] = fit.split.folds;
@@ -211,14 +211,14 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   add_likeness(c, out);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
-  add_verdict(cell, measured, fit, out);
+  add_verdict(cell, fit, answers, out);
   return out;
 }
 
-std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit) {
+std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit,
+                     const Answers& answers) {
   const Calibration& c = fit.calibration;
-  std::string out =
-      compare::full_verdict(cell, measured, fit) + "\n\n" + error_text(measured, fit) + "\n";
+  std::string out = answers.sentence + "\n\n" + error_text(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += likeness_text(c);
   out += series_text(cell, c.state) + measurement_text(cell, c.state, c.held) + tree_text(fit);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "answers/answers.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/fit.hpp"
@@ -11,10 +12,12 @@
 namespace plumb::offline::show {
 
 /// `result` of `plumb fit` but for `run`.
-Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit);
+Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
+              const Answers& answers);
 
 /// Verdict, error table, parameters with 1 sigma, frame, target, tree.
-std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit);
+std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit,
+                     const Answers& answers);
 
 /// Where base and reflector stood, of each set-up, as indented lines.
 ///

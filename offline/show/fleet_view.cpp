@@ -49,7 +49,11 @@ Json cell_json(const Fleet& all, const CellSummary& cell) {
   Json out{{"name", cell.name}, {"ok", cell.ok}};
   out["held_out"] = stats_json(cell.held);
   out["arm"] = cell.arm;
-  out["verdict"] = cell.verdict;
+  out["verdict"] = cell.answers.sentence;
+  if (cell.ok)
+    out["finding"] = to_json(cell.answers);
+  else
+    put_null(out, "finding", "the cell could not be fitted");
   out["verdict_head"] = cell.verdict_head;
   out["verdict_class"] = cell.verdict_class;
   out["good"] = cell.good;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <set>
 
+#include "answers/answers.hpp"
 #include "figures/registry.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
@@ -262,6 +263,17 @@ Bytes LiveCell::kept(const std::string& key, const std::function<std::string()>&
   return out;
 }
 
+/// What people ask first, of a run; null without one, and where it cannot be judged.
+Json LiveCell::finding_of(int run) {
+  Json out = nullptr;
+  if (run <= 0) return out;
+  (void)problem_in([&] {
+    const RunView& of = view(run);
+    out = to_json(answers_of(*of.cell, of.measured, of.run));
+  });
+  return out;
+}
+
 Bytes LiveCell::cell() {
   const std::lock_guard lock(mutex_);
   look();
@@ -276,6 +288,7 @@ Bytes LiveCell::cell() {
                       {"data", data_json()},
                       {"runs", std::move(runs)},
                       {"current_run", now > 0 ? Json(now) : Json(nullptr)},
+                      {"finding", finding_of(now)},
                       {"command", "plumb -C " + shell_word(folder_.string())},
                       {"problem", page_problem(cell_problem_ ? cell_problem_ : data_problem_)}});
   });
@@ -321,7 +334,8 @@ Bytes LiveCell::run(int number) {
   look();
   return kept(fmt::format("run {}", number), [&] {
     const RunView& of = view(number);
-    Json out = show::fit_json(*of.cell, of.measured, of.run.fit);
+    Json out = show::fit_json(*of.cell, of.measured, of.run.fit,
+                              answers_of(*of.cell, of.measured, of.run));
     out["run"] = of.run.number;
     out["created"] = of.run.created;
     out["current"] = is_current(rows_.at(of.run.number));

@@ -80,6 +80,7 @@ class LiveCell {
   const RunView& view(int number);
   Bytes kept(const std::string& key, const std::function<std::string()>& make);
   Json cell_json() const;
+  Json finding_of(int run);
   Json data_json() const;
 
   const std::filesystem::path file_;

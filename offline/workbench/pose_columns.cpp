@@ -6,11 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/answers.hpp"
 #include "arm/arm_state.hpp"
 #include "arm/parameter.hpp"
 #include "arm/predicted_points.hpp"
 #include "compare/comparison.hpp"
-#include "figures/worst_band.hpp"
+#include "compare/worst_band.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
 #include "show/compare_words.hpp"
@@ -101,9 +102,10 @@ Json worst_of_profiles(const RunResults& results) {
 
 /// Null if no region is worse than chance makes it.
 Json worst_region(const RunResults& results) {
-  const auto band = figures::worst_band(results);
+  const auto band = compare::worst_band(results.cell, results.measured, results.run.fit);
   if (!band) return worst_of_profiles(results);
-  return {{"sentence", figures::where_sentence(results)}, {"rows", band->rows}};
+  return {{"sentence", compare::where_sentence(results.cell, results.measured, results.run.fit)},
+          {"rows", band->rows}};
 }
 
 Json sets_of(const RunResults& results) {
@@ -155,7 +157,8 @@ Json pose_columns(const RunResults& results) {
            {"context", std::move(context)},
            {"worst_region", worst_region(results)},
            {"reach_mm", shown(kMm * reach(state.arm.calibrated))}};
-  show::add_verdict(results.cell, measured, results.run.fit, out);
+  show::add_verdict(results.cell, results.run.fit, answers_of(results.cell, measured, results.run),
+                    out);
   return out;
 }
 

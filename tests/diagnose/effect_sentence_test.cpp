@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "answers/after_diagnosis.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_words.hpp"
 #include "effects/effect_option.hpp"
@@ -132,7 +133,7 @@ TEST(EffectSentence, WhatIsCertainNeedsNoMeasurementToBeSure) {
     rival.ln_bayes = best.ln_bayes - behind;
     d.candidates = {best, rival};
     std::string next;
-    for (const auto& line : show::after_diagnosis(cell, d)) next += line + "\n";
+    for (const auto& line : after_diagnosis(cell, d)) next += line + "\n";
     const bool certain = verdict_text(cell, d).find("Certain") != std::string::npos;
     EXPECT_EQ(certain, behind >= 10.0) << behind;
     EXPECT_EQ(next.find("to be sure which it is") == std::string::npos, certain) << next;

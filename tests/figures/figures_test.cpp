@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arm/predicted_points.hpp"
+#include "compare/worst_band.hpp"
 #include "effects/registry.hpp"
 #include "figures/bench_figures.hpp"
 #include "figures/data_figures.hpp"
@@ -25,7 +26,6 @@
 #include "figures/registry.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
-#include "figures/worst_band.hpp"
 #include "fit/calibrate.hpp"
 #include "plumb/format/formula.hpp"
 #include "tests/draw/text_boxes.hpp"
@@ -141,13 +141,23 @@ TEST(ErrorByPose, DrawsEveryHeldOutPoseAndNoOther) {
   EXPECT_EQ(poses_in(error_map(made.results(), 900.0)), held);
 }
 
+std::string where(const MadeRun& made) {
+  const RunResults results = made.results();
+  return compare::where_sentence(results.cell, results.measured, results.run.fit);
+}
+
+std::optional<compare::WorstBand> band_of(const MadeRun& made) {
+  const RunResults results = made.results();
+  return compare::worst_band(results.cell, results.measured, results.run.fit);
+}
+
 TEST(ErrorByPose, NamesTheWorstPoseInTheDrawingAndTheSentence) {
   MadeRun made(60, 6);
   made.after_M.row(25) = Eigen::RowVector3d(0.0, 0.3e-3, 0.4e-3);
   const std::string svg = error_by_pose(made.results(), 900.0);
   EXPECT_NE(svg.find(">P26</text>"), std::string::npos);
-  EXPECT_NE(where_sentence(made.results()).find("P26"), std::string::npos);
-  EXPECT_NE(where_sentence(made.results()).find("0.50 mm"), std::string::npos);
+  EXPECT_NE(where(made).find("P26"), std::string::npos);
+  EXPECT_NE(where(made).find("0.50 mm"), std::string::npos);
 }
 
 TEST(WorstBand, IsTheOneThatWasPlanted) {
@@ -165,16 +175,15 @@ TEST(WorstBand, IsTheOneThatWasPlanted) {
     made.after_M.row(row) *= 6.0;
     ++planted;
   }
-  const auto band = worst_band(made.results());
+  const auto band = band_of(made);
   ASSERT_TRUE(band) << planted << " poses planted";
   EXPECT_EQ(band->joint, 1);
   EXPECT_NEAR(band->from, low + 5.0 * step, 0.1 * step);
   EXPECT_GT(band->mean_m, 4.0 * band->elsewhere_m);
-  EXPECT_NE(where_sentence(made.results()).find("largest at " + made.cell.nominal.joints[1].name),
-            std::string::npos);
+  EXPECT_NE(where(made).find("largest at " + made.cell.nominal.joints[1].name), std::string::npos);
 }
 
-TEST(WorstBand, NoiseHasNone) { EXPECT_FALSE(worst_band(MadeRun(400, 6).results())); }
+TEST(WorstBand, NoiseHasNone) { EXPECT_FALSE(band_of(MadeRun(400, 6))); }
 
 /// Of 60 readings, 12 of them held out, some that are listed as standing out by a quarter metre.
 MadeRun with_bad_readings(const std::vector<int>& rows) {
@@ -214,10 +223,10 @@ TEST(BadReadings, AreLeftOutOfTheSentences) {
   const std::string svg = error_ecdf(one.results(), 4000.0);
   EXPECT_NE(svg.find("11 held-out poses (without 1 reading that stands out) miss"),
             std::string::npos);
-  EXPECT_EQ(where_sentence(one.results()).find("250 mm"), std::string::npos);
+  EXPECT_EQ(where(one).find("250 mm"), std::string::npos);
   // Three of twelve are no single bad readings any more: all count.
   const MadeRun three = with_bad_readings({25, 30, 35});
-  EXPECT_NE(where_sentence(three.results()).find("250 mm"), std::string::npos);
+  EXPECT_NE(where(three).find("250 mm"), std::string::npos);
   EXPECT_GE(error_axis(three.results()).axis.high, 250.0);
 }
 

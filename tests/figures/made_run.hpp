@@ -19,7 +19,7 @@ struct MadeRun {
 
   Cell cell;
   Measurements measured;
-  Run run;
+  mutable Run run;  // its predictions follow the errors below
   tests::Random random;
   Rows3 before_M, after_M;
 
@@ -70,6 +70,7 @@ struct MadeRun {
   }
 
   RunResults results() const {
+    run.fit.predicted_M = measured.p_M - after_M;
     RunResults out{.cell = cell,
                    .measured = measured,
                    .run = run,

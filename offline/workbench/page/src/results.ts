@@ -12,6 +12,8 @@ export interface Statistics {
 export interface Diagnosis {
   verdict: "complete" | "missing" | "unknown" | "undecidable";
   verdict_text: string;
+  finding: Finding | null;
+  noise_floor: Noise_floor;
   noise_floor_mm: number | null;
   noise_floor_rms_mm: number | null;
   noise_floor_source?: "repeats" | "sigma";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/kept_diagnosis.hpp"
+#include "answers/kept_diagnosis.hpp"
 
 #include "plumb/format/version.hpp"
 #include "program/file.hpp"
@@ -81,9 +81,21 @@ void describe(Fields& fields, typename Fields::template Of<Testable>& effect) {
 }
 
 template <class Fields>
+void describe(Fields& fields, typename Fields::template Of<Undecided>& undecided) {
+  fields("entry", undecided.entry);
+  fields("cycles", undecided.cycles);
+  fields("domain", undecided.domain);
+  fields("alternatives", undecided.alternatives);
+  fields("slow_motion", undecided.slow_motion);
+}
+
+template <class Fields>
 void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("finding", found.finding);
   fields("text", found.text);
+  fields("finding_after", found.finding_after);
+  fields("text_after", found.text_after);
+  fields("undecided", found.undecided);
   fields("floor", found.floor);
   fields("poses_fit", found.poses_fit);
   fields("poses_held", found.poses_held);
@@ -101,12 +113,9 @@ void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("outliers", found.outliers);
 }
 
-}  // namespace plumb::offline
-
-namespace plumb::offline::report {
 namespace {
 
-constexpr const char* kSchema = "diagnosis/3";
+constexpr const char* kSchema = "diagnosis/4";
 
 std::filesystem::path kept_file(const Run& run) { return run.directory / "diagnosis.json"; }
 
@@ -127,7 +136,7 @@ void keep_diagnosis(const Run& run, const Diagnosis& found) {
   }
 }
 
-std::optional<Diagnosis> kept_diagnosis(const Run& run) {
+std::optional<Diagnosis> last_diagnosis(const Run& run) {
   if (run.number <= 0 || !std::filesystem::exists(kept_file(run))) return std::nullopt;
   try {
     const Json file = Json::parse(read_file(kept_file(run)));
@@ -143,4 +152,9 @@ std::optional<Diagnosis> kept_diagnosis(const Run& run) {
   }
 }
 
-}  // namespace plumb::offline::report
+std::optional<Diagnosis> kept_diagnosis(const Run& run) {
+  auto out = last_diagnosis(run);
+  return out && !out->finding_after ? out : std::nullopt;
+}
+
+}  // namespace plumb::offline

@@ -6,7 +6,7 @@
 
 #include "cell/cell.hpp"
 
-namespace plumb::offline::show {
+namespace plumb::offline {
 
 /// The arguments of `plumb add`; a ripple with all its waves:
 /// gear_ripple --joints J2 --set cycles_per_turn=7.91,17.49; a step with the rows of all its moves
@@ -21,4 +21,4 @@ std::vector<std::string> adding_arguments(const Cell& cell,
 /// What `plumb drop` takes of effects that were added together: a formula goes by its name.
 std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>& effects);
 
-}  // namespace plumb::offline::show
+}  // namespace plumb::offline

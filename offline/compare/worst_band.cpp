@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "figures/worst_band.hpp"
+#include "compare/worst_band.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/ticks.hpp"
-#include "figures/words.hpp"
+#include "arm/predicted_points.hpp"
+#include "compare/pose_words.hpp"
 
-namespace plumb::offline::figures {
+namespace plumb::offline::compare {
 namespace {
 
 constexpr int kSteps = 8;                 // of the range of a joint
@@ -26,35 +26,38 @@ struct Sums {
   }
 };
 
-std::string range_text(const RunResults& results, const WorstBand& band) {
-  const format::JointRow& row = results.cell.nominal.joints[static_cast<std::size_t>(band.joint)];
+std::string range_text(const Cell& cell, const WorstBand& band) {
+  const format::JointRow& row = cell.nominal.joints[static_cast<std::size_t>(band.joint)];
   const bool slides = row.type == format::JointType::kPrismatic;
   const double per = slides ? 1e3 : 180.0 / std::numbers::pi;
   return fmt::format("{} between {:.0f} and {:.0f} {}", row.name, std::round(band.from * per) + 0.0,
                      std::round(band.to * per) + 0.0, slides ? "mm" : "deg");
 }
 
-}  // namespace
+/// The length of the error of each row [m].
+Eigen::VectorXd error_sizes(const Measurements& measured, const Fit& fit) {
+  return residuals(measured, fit.predicted_M).rowwise().norm();
+}
 
-std::optional<WorstBand> worst_band(const RunResults& results) {
-  const auto rows = usual_rows(results, results.judged());
+std::optional<WorstBand> band_of(const Cell& cell, const Measurements& measured,
+                                 const std::vector<int>& rows, const Eigen::VectorXd& error_m) {
   std::optional<WorstBand> best;
   double most = kStandardErrors;
   Sums all;
-  for (const int row : rows) all.add(results.after(row));
-  for (int j = 0; j < results.cell.joints(); ++j) {
+  for (const int row : rows) all.add(error_m(row));
+  for (int j = 0; j < cell.joints(); ++j) {
     double low = INFINITY, high = -INFINITY;
     for (const int row : rows) {
-      low = std::min(low, results.measured.q(row, j));
-      high = std::max(high, results.measured.q(row, j));
+      low = std::min(low, measured.q(row, j));
+      high = std::max(high, measured.q(row, j));
     }
     if (!(high > low)) continue;
     const double step = (high - low) / kSteps;
     const auto step_of = [&](int row) {
-      return std::min(kSteps - 1, static_cast<int>((results.measured.q(row, j) - low) / step));
+      return std::min(kSteps - 1, static_cast<int>((measured.q(row, j) - low) / step));
     };
     std::vector<Sums> sums(kSteps);
-    for (const int row : rows) sums[static_cast<std::size_t>(step_of(row))].add(results.after(row));
+    for (const int row : rows) sums[static_cast<std::size_t>(step_of(row))].add(error_m(row));
     for (int k = 0; k < kSteps; ++k) {
       const Sums& in = sums[static_cast<std::size_t>(k)];
       const Sums out{all.n - in.n, all.sum - in.sum, all.squares - in.squares};
@@ -70,25 +73,32 @@ std::optional<WorstBand> worst_band(const RunResults& results) {
   }
   if (best)
     std::stable_sort(best->rows.begin(), best->rows.end(),
-                     [&](int a, int b) { return results.after(a) > results.after(b); });
+                     [&](int a, int b) { return error_m(a) > error_m(b); });
   return best;
 }
 
-std::string where_sentence(const RunResults& results) {
-  std::vector<int> rows = usual_rows(results, results.judged());
-  if (rows.empty()) return "There is no pose to judge.";
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](int a, int b) { return results.after(a) > results.after(b); });
-  if (rows.size() == 1)
-    return fmt::format("There is one pose only: it misses by {}.",
-                       length_text(results.after(rows.front())));
-  if (const auto band = worst_band(results))
-    return fmt::format("The error is largest at {}: {} on average, {} elsewhere; worst at {}.",
-                       range_text(results, *band), length_text(band->mean_m),
-                       length_text(band->elsewhere_m), pose_list(results, band->rows, 3));
-  return fmt::format("No range of a joint stands out; the worst of {} are {}, up to {}.",
-                     judged_words(results), pose_names(results, rows, 3),
-                     length_text(results.after(rows.front())));
+}  // namespace
+
+std::optional<WorstBand> worst_band(const Cell& cell, const Measurements& measured,
+                                    const Fit& fit) {
+  return band_of(cell, measured, judged_rows(fit), error_sizes(measured, fit));
 }
 
-}  // namespace plumb::offline::figures
+std::string where_sentence(const Cell& cell, const Measurements& measured, const Fit& fit) {
+  std::vector<int> rows = judged_rows(fit);
+  const Eigen::VectorXd error_m = error_sizes(measured, fit);
+  if (rows.empty()) return "There is no pose to judge.";
+  std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return error_m(a) > error_m(b); });
+  if (rows.size() == 1)
+    return fmt::format("There is one pose only: it misses by {}.",
+                       length_text(error_m(rows.front())));
+  if (const auto band = band_of(cell, measured, rows, error_m))
+    return fmt::format("The error is largest at {}: {} on average, {} elsewhere; worst at {}.",
+                       range_text(cell, *band), length_text(band->mean_m),
+                       length_text(band->elsewhere_m), pose_list(measured, band->rows, 3));
+  return fmt::format("No range of a joint stands out; the worst of {} are {}, up to {}.",
+                     judged_words(fit), pose_names(measured, rows, 3),
+                     length_text(error_m(rows.front())));
+}
+
+}  // namespace plumb::offline::compare

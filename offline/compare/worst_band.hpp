@@ -2,11 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "figures/run_results.hpp"
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/fit.hpp"
 
-namespace plumb::offline::figures {
+namespace plumb::offline::compare {
 
 /// A range of one joint in which the error is larger than elsewhere, beyond chance.
 struct WorstBand {
@@ -20,10 +23,10 @@ struct WorstBand {
 /// most standard errors above that of the other poses; none if that is fewer than four, which is
 /// exceeded by chance in about 1 % of all runs (Bonferroni over all steps).
 /// Cost: joints * poses.
-std::optional<WorstBand> worst_band(const RunResults& results);
+std::optional<WorstBand> worst_band(const Cell& cell, const Measurements& measured, const Fit& fit);
 
 /// "The error is largest at J2 between 60 and 80 deg: 0.41 mm on average, 0.12 mm elsewhere; worst
 /// at poses 12, 57 and 80.", or that no joint range stands out and which poses are the worst.
-std::string where_sentence(const RunResults& results);
+std::string where_sentence(const Cell& cell, const Measurements& measured, const Fit& fit);
 
-}  // namespace plumb::offline::figures
+}  // namespace plumb::offline::compare

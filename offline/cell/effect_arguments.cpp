@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "show/effect_arguments.hpp"
+#include "cell/effect_arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "effects/registry.hpp"
 #include "program/shell_word.hpp"
 
-namespace plumb::offline::show {
+namespace plumb::offline {
 namespace {
 
 std::string formula_arguments(const EffectEntry& effect) {
@@ -78,4 +78,4 @@ std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>&
   return fmt::format("{}", fmt::join(adding_arguments(cell, effects), " && plumb drop "));
 }
 
-}  // namespace plumb::offline::show
+}  // namespace plumb::offline
