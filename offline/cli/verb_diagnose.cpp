@@ -135,8 +135,8 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
   if (before && !options.dry_run) keep_what_was_found(cell, *before, found);
   outcome.result = show::diagnose_json(cell, found);
   outcome.verdicts = {{found.text, show::class_of(found.finding)}};
-  outcome.text = show::diagnose_text(
-      cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);
+  outcome.text = text_of(show::diagnosis_blocks(
+      cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst));
   if (before)
     answer(answers_of(cell, measured, before->fit, &found), outcome);
   else

@@ -133,6 +133,24 @@ void Html::preformatted(std::string_view label, std::string_view text) {
                   draw::escaped(label), escaped_lines(text));
 }
 
+void Html::blocks(const show::Blocks& blocks,
+                  const std::function<void(const std::string&)>& put_figure) {
+  std::string next;
+  for (const show::Block& block : blocks) {
+    if (const auto* const sentence = std::get_if<show::Sentence>(&block))
+      paragraph(sentence->words);
+    if (const auto* const found = std::get_if<show::Table>(&block)) table(*found);
+    if (const auto* const drawn = std::get_if<show::Figure>(&block)) put_figure(drawn->name);
+    if (const auto* const note = std::get_if<show::Note>(&block)) paragraph(note->words);
+    if (const auto* const action = std::get_if<show::Action>(&block))
+      next += (next.empty() ? "plumb " : "\nplumb ") + action->command +
+              (action->why.empty() ? "" : "   # " + action->why);
+  }
+  if (next.empty()) return;
+  heading("What to do next");
+  preformatted("Commands to type next", next);
+}
+
 void Html::figure(std::string_view wide_svg, std::string_view narrow_svg) {
   text_ += "<figure><div class=\"wide\">" + without_poses(compacted(wide_svg)) + "</div>";
   if (!narrow_svg.empty())

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "show/block.hpp"
 #include "show/table.hpp"
 
 namespace plumb::offline::report {
@@ -21,6 +23,12 @@ class Html {
 
   /// A figure laid out for a wide page and for a telephone. `svg`: already escaped.
   void figure(std::string_view wide_svg, std::string_view narrow_svg);
+
+  /// The blocks of a result in their order, what to do next under a heading at the end.
+  ///
+  /// @param put_figure  Draws the figure of that name here.
+  void blocks(const show::Blocks& blocks,
+              const std::function<void(const std::string&)>& put_figure);
 
   /// Elements that are already escaped.
   void raw(std::string_view html) { text_ += html; }

@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include "program/counted_words.hpp"
-#include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/fit_view.hpp"
-#include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
 
 namespace plumb::offline::report {
@@ -46,43 +44,25 @@ std::string parameters_sentence(const std::vector<Estimate>& estimates) {
   return out;
 }
 
-show::Table parameters_table(const std::vector<Estimate>& estimates) {
-  namespace head = show::head;
-  show::Table table{.caption = "Fitted numbers of the arm and its effects",
-                    .head = {head::kParameter, head::kNominal, head::kFitted, head::kChange,
-                             "95 % interval of the change", "unit"},
-                    .left_from = 5};
-  for (const Estimate& e : estimates) {
-    if (!e.of_robot) continue;
-    const auto unit = show::unit_of(e);
-    const double change = e.value - e.nominal, half = kTwoSided95 * e.std;
-    table.rows.push_back(
-        {e.name, unit.text(e.nominal), unit.text(e.value),
-         (change > 0.0 ? "+" : "") + unit.text(change),
-         std::isfinite(half) ? unit.text(change - half) + " .. " + unit.text(change + half) : "-",
-         unit.name});
+/// Of very many numbers the first ones: plumb fit --json lists all.
+show::Blocks shortened(show::Blocks blocks) {
+  for (show::Block& block : blocks) {
+    auto* const table = std::get_if<show::Table>(&block);
+    if (table == nullptr || table->rows.size() <= kMostParameters) continue;
+    table->caption += fmt::format(": the first {} of {}; plumb fit --json lists all",
+                                  kMostParameters, table->rows.size());
+    table->rows.resize(kMostParameters);
   }
-  if (table.rows.size() > kMostParameters) {
-    table.caption += fmt::format(": the first {} of {}; plumb fit --json lists all",
-                                 kMostParameters, table.rows.size());
-    table.rows.resize(kMostParameters);
-  }
-  return table;
+  return blocks;
 }
 
 }  // namespace
 
 Html parameters_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
-  const Calibration& c = data.run.fit.calibration;
-  html.paragraph(parameters_sentence(c.estimates));
-  if (!c.held.empty())
-    html.paragraph(fmt::format("Kept at nominal, because these poses say too little about {}: {}.",
-                               c.held.size() == 1 ? "it" : "them", listed_words(c.held)));
+  html.paragraph(parameters_sentence(data.run.fit.calibration.estimates));
   figures.put(Page::kParameters, html);
-  html.table(parameters_table(c.estimates));
-  html.heading("Where tracker and reflector stood");
-  html.preformatted("Frame and target", show::measurement_text(data.cell, c.state, c.held));
+  html.blocks(shortened(show::arm_blocks(data.cell, data.run.fit)), [](const std::string&) {});
   return html;
 }
 

@@ -147,7 +147,7 @@ std::string compare_text(const Cell& cell, const Measurements& measured,
   const double tolerance_m = cell.tolerance_m;
   const Table worst = worst_table(comparison);
   return compare_verdict(cell, measured, comparison, answers.sentence) + "\n\n" +
-         error_text(measured, run.fit) + within_text(comparison, run.fit, tolerance_m) +
+         text_of(error_blocks(measured, run.fit)) + within_text(comparison, run.fit, tolerance_m) +
          setups_text(comparison) + findings_text(cell, measured, comparison, run.fit) + "\n" +
          worst.caption + "\n" + text_of(worst) + where_text(comparison);
 }

@@ -76,7 +76,7 @@ std::string figure_of(const Cell& cell, const EffectEntry& effect) {
   return "joint-" + cell.nominal.joints[static_cast<std::size_t>(effect.joints.front())].name;
 }
 
-Json candidate_json(const Cell& cell, const Candidate& c) {
+Json candidate_json(const Cell& cell, const Diagnosis& d, const Candidate& c) {
   Json out{{"effect", c.entry.name},
            {"joints", joints_json(cell, c.entry)},
            {"title", c.title},
@@ -90,6 +90,7 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
   out["domain"] = c.domain;
   out["supported"] = c.supported;
   out["plausible"] = c.plausible;
+  out["support"] = support_words(d, c);
   out["options"] = c.entry.options;
   out["parameters"] = parameters_json(c);
   put(out, "share_pct", 100.0 * c.explained);
@@ -173,7 +174,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     out["added"].push_back(std::move(one));
   }
   out["candidates"] = Json::array();
-  for (const auto& c : d.candidates) out["candidates"].push_back(candidate_json(cell, c));
+  for (const auto& c : d.candidates) out["candidates"].push_back(candidate_json(cell, d, c));
   out["alternatives"] = alternatives_json(cell, d.alternatives);
   if (d.undecided) out["not_added"] = undecided_json(cell, *d.undecided);
   if (d.slow_motion) out["slow_motion"] = unknown_json(cell, *d.slow_motion);
@@ -209,6 +210,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     put_null(out, "left_over", "no noise floor is known");
   out["outliers"] = d.outliers;
   out["blocks_tried"] = d.regressors;
+  out["blocks"] = to_json(diagnosis_blocks(cell, d, Candidates::kFirst));
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "answers/after_diagnosis.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/certainty.hpp"
 #include "diagnose/effect_domain.hpp"
@@ -22,16 +23,19 @@ namespace {
 constexpr std::size_t kShown = 8;
 
 /// Of very many poses an even choice decides which effects there are.
-std::string choosing_text(const Diagnosis& d) {
+Blocks choosing_note(const Diagnosis& d) {
   if (d.poses_choosing >= d.poses_fit) return {};
-  return fmt::format("  {} of the {} fitted poses, evenly spread, chose the effects; {}\n",
-                     d.poses_choosing, d.poses_fit,
-                     d.added.empty() ? "the error now is that of a fit to all"
-                                     : "the line of the last one is a fit to all");
+  return {Note{fmt::format("{} of the {} fitted poses, evenly spread, chose the effects; {}",
+                           d.poses_choosing, d.poses_fit,
+                           d.added.empty() ? "the error now is that of a fit to all"
+                                           : "the line of the last one is a fit to all"),
+               Note::Stands::kUnderTable}};
 }
 
-std::string errors_text(const Cell& cell, const Diagnosis& d) {
-  Table table{.head = {head::kHeldOutError, head::kMean, head::kRms, head::kP95, head::kMax}};
+Blocks steps_blocks(const Cell& cell, const Diagnosis& d) {
+  Table table{.name = "steps",
+              .caption = "Held-out error [mm] as the model grows",
+              .head = {head::kHeldOutError, head::kMean, head::kRms, head::kP95, head::kMax}};
   const auto add = [&](const std::string& name, const ErrorStats& e) {
     table.add({name, mm(e.mean), mm(e.rms), mm(e.p95), mm(e.max)});
   };
@@ -40,7 +44,10 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
   if (d.floor.source != NoiseFloor::Source::kNone)
     table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
-  return text_of(table) + folds_text(d.folds, d.poses_fit) + choosing_text(d);
+  Blocks out{std::move(table)};
+  append(out, folds_note(d.folds, d.poses_fit));
+  append(out, choosing_note(d));
+  return out;
 }
 
 std::string candidates_caption(const Diagnosis& d) {
@@ -50,17 +57,12 @@ std::string candidates_caption(const Diagnosis& d) {
 
 std::string error_cell(const ErrorStats& stats) { return stats.n > 0 ? mm(stats.mean) : "-"; }
 
-/// What most people need: which effect, and how far the error falls.
-std::string short_table(const Cell& cell, const Diagnosis& d) {
-  std::string out = text_of(candidates_table(cell, d, kShown));
-  if (d.candidates.size() > kShown)
-    out += fmt::format("  and {} more: --all\n", d.candidates.size() - kShown);
-  return out;
-}
-
 /// Everything that is known of every candidate.
-std::string full_table(const Cell& cell, const Diagnosis& d) {
-  Table table{.head = {head::kLnBayes, head::kFall, head::kAlone, head::kWithFirst, head::kSize,
+Table full_table(const Cell& cell, const Diagnosis& d) {
+  Table table{.name = "candidates",
+              .caption = candidates_caption(d),
+              .captioned = true,
+              .head = {head::kLnBayes, head::kFall, head::kAlone, head::kWithFirst, head::kSize,
                        head::kShare, head::kAbsorbed, head::kSupported, head::kEffect}};
   table.left_from = 7;
   for (const Candidate& c : d.candidates)
@@ -69,7 +71,7 @@ std::string full_table(const Cell& cell, const Diagnosis& d) {
                fmt::format("{:.0f} %", 100 * c.explained),
                fmt::format("{:.0f} %", 100 * c.absorbed), support_words(d, c),
                command_name(cell, c.entry)});
-  return text_of(table);
+  return table;
 }
 
 /// Whether an effect, known by its key, is one of what the first candidate may be instead.
@@ -78,20 +80,66 @@ bool is_alternative(const Cell& cell, const Diagnosis& d, const std::string& key
                      [&](const Alternative& other) { return key_of(cell, other.entry) == key; });
 }
 
-std::string candidates_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
-  if (d.candidates.empty()) return {};
-  std::string out = fmt::format("\n{}\n", candidates_caption(d)) +
-                    (shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d));
-  return d.candidates.front().supported ? out + "\n" + first_candidate_text(cell, d) : out;
+/// How far the first candidate moves the measured point, and what it may be mistaken for; one
+/// sentence a line.
+std::string first_candidate_text(const Cell& cell, const Diagnosis& d) {
+  const Candidate& first = d.candidates.front();
+  std::string out = fmt::format(
+      "The first moves the measured point by up to {} mm in a way that geometry "
+      "cannot imitate.",
+      mm(first.largest_m));
+  std::vector<std::string> near, similar;
+  for (const auto& other : d.alternatives)
+    near.push_back(in_words(cell, other.entry, other.cycles));
+  for (const auto& key : first.confounded_with) {
+    if (is_alternative(cell, d, key)) continue;
+    (is_near_rival(cell, d, key) ? near : similar).push_back(key_in_words(key));
+  }
+  if (!near.empty())
+    out += fmt::format(
+        "\nHard to tell from: {}.{}", fmt::join(near, ", "),
+        first.separate.empty() ? "" : " To tell them apart, measure " + first.separate + ".");
+  if (!similar.empty())
+    out += fmt::format("\nSimilar, but explaining these poses clearly worse: {}.",
+                       fmt::join(similar, ", "));
+  return out;
 }
 
-std::string not_testable_text(const Diagnosis& d) {
-  if (d.not_testable.empty()) return {};
-  std::string out = "\nNot testable with these data\n";
-  for (const auto& t : d.not_testable)
-    out += fmt::format("  {}: {}{}\n", t.effect, t.why,
-                       t.measure.empty() ? "" : "; measure " + t.measure);
+/// What most people need: which effect, and how far the error falls.
+Table short_table(const Cell& cell, const Diagnosis& d) {
+  Table table{.name = "candidates",
+              .caption = candidates_caption(d),
+              .captioned = true,
+              .head = {" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect},
+              .left_from = 3};
+  for (std::size_t i = 0; i < std::min(kShown, d.candidates.size()); ++i) {
+    const Candidate& c = d.candidates[i];
+    table.add({fmt::format("{:>2}", i + 1), error_cell(c.alone), error_cell(c.after),
+               support_words(d, c), in_words(cell, c)});
+  }
+  return table;
+}
+
+Blocks candidates_blocks(const Cell& cell, const Diagnosis& d, Candidates shown) {
+  if (d.candidates.empty()) return {};
+  const bool all = shown == Candidates::kAll || d.candidates.size() <= kShown;
+  Blocks out{shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d)};
+  if (!all)
+    out.emplace_back(Note{fmt::format("and {} more: --all", d.candidates.size() - kShown),
+                          Note::Stands::kUnderTable});
+  if (d.candidates.front().supported) out.emplace_back(Note{first_candidate_text(cell, d)});
   return out;
+}
+
+Table not_testable_table(const Diagnosis& d) {
+  Table table{.name = "not_testable",
+              .caption = "Not testable with these data",
+              .captioned = true,
+              .head = {"effect", "why", "measure"},
+              .left_from = 1,
+              .as_lines = true};
+  for (const auto& t : d.not_testable) table.add({t.effect, t.why, t.measure});
+  return table;
 }
 
 }  // namespace
@@ -109,48 +157,19 @@ std::string support_words(const Diagnosis& d, const Candidate& c) {
                 : "yes";
 }
 
-Table candidates_table(const Cell& cell, const Diagnosis& d, std::size_t most) {
-  Table table{.caption = candidates_caption(d),
-              .head = {" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect},
-              .left_from = 3};
-  for (std::size_t i = 0; i < std::min(most, d.candidates.size()); ++i) {
-    const Candidate& c = d.candidates[i];
-    table.add({fmt::format("{:>2}", i + 1), error_cell(c.alone), error_cell(c.after),
-               support_words(d, c), in_words(cell, c)});
-  }
-  return table;
-}
-
-std::string first_candidate_text(const Cell& cell, const Diagnosis& d) {
-  const Candidate& first = d.candidates.front();
-  std::string out = fmt::format(
-      "The first moves the measured point by up to {} mm in a way that geometry "
-      "cannot imitate.\n",
-      mm(first.largest_m));
-  std::vector<std::string> near, similar;
-  for (const auto& other : d.alternatives)
-    near.push_back(in_words(cell, other.entry, other.cycles));
-  for (const auto& key : first.confounded_with) {
-    if (is_alternative(cell, d, key)) continue;
-    (is_near_rival(cell, d, key) ? near : similar).push_back(key_in_words(key));
-  }
-  if (!near.empty())
-    out += fmt::format(
-        "Hard to tell from: {}.{}\n", fmt::join(near, ", "),
-        first.separate.empty() ? "" : " To tell them apart, measure " + first.separate + ".");
-  if (!similar.empty())
-    out += fmt::format("Similar, but explaining these poses clearly worse: {}.\n",
-                       fmt::join(similar, ", "));
-  return out;
-}
-
-std::string diagnose_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
-  std::string out = d.text + "\n";
-  if (d.finding_after) out += d.text_after + "\n";
-  out += "\n" + errors_text(cell, d) + candidates_text(cell, d, shown);
+Blocks diagnosis_blocks(const Cell& cell, const Diagnosis& d, Candidates shown) {
+  Blocks out{Sentence{d.text, class_of(d.finding)}};
+  if (d.finding_after) out.emplace_back(Sentence{d.text_after, class_of(*d.finding_after)});
+  append(out, steps_blocks(cell, d));
+  out.emplace_back(Figure{"evidence"});
+  append(out, candidates_blocks(cell, d, shown));
   if (!d.outliers.empty())
-    out += fmt::format("\nLeft out, the others contradict them: {}\n", fmt::join(d.outliers, ", "));
-  return out + not_testable_text(d);
+    out.emplace_back(
+        Note{fmt::format("Left out, the others contradict {}: {}",
+                         d.outliers.size() == 1 ? "it" : "them", fmt::join(d.outliers, ", "))});
+  out.emplace_back(not_testable_table(d));
+  for (const auto& words : after_diagnosis(cell, d)) out.emplace_back(action_of(words));
+  return out;
 }
 
 }  // namespace plumb::offline::show

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "diagnose/diagnosis.hpp"
+#include "show/block.hpp"
 #include "show/json.hpp"
-#include "show/table.hpp"
 
 namespace plumb::offline::show {
 
@@ -20,18 +20,11 @@ const char* class_of(Finding finding);
 enum class Candidates { kFirst, kAll };
 
 /// Verdict, errors before and after, ranked candidates, what cannot be told apart, what these data
-/// cannot show.
-std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis, Candidates shown);
+/// cannot show, and what to do next.
+Blocks diagnosis_blocks(const Cell& cell, const Diagnosis& diagnosis, Candidates shown);
 
 /// Whether these poses support a candidate: "yes", "no", "no gain", "unlikely", "one of 2".
 std::string support_words(const Diagnosis& diagnosis, const Candidate& candidate);
-
-/// The first `most` candidates and how far the error falls with each of them.
-Table candidates_table(const Cell& cell, const Diagnosis& diagnosis, std::size_t most);
-
-/// How far the first candidate moves the measured point, and what it may be mistaken for; one
-/// sentence a line. There must be a candidate.
-std::string first_candidate_text(const Cell& cell, const Diagnosis& diagnosis);
 
 /// ["J2", "J3"]
 Json joints_json(const Cell& cell, const EffectEntry& effect);

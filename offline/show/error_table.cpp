@@ -21,14 +21,16 @@ std::vector<std::string> row(const std::string& name, const ErrorStats& s,
           mm(s.max)};
 }
 
-std::string turn_table(const ErrorStats& s) {
-  if (s.n == 0) return "";
-  Table table{.head = {"orientation error [deg]", head::kReadings, head::kMean, head::kRms,
+Table turn_table(const ErrorStats& s) {
+  Table table{.name = "orientations",
+              .caption = "Orientation errors, measured - predicted [deg]",
+              .head = {"orientation error [deg]", head::kReadings, head::kMean, head::kRms,
                        head::kP95, head::kMax}};
+  if (s.n == 0) return table;
   const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
              deg(s.max)});
-  return "\n" + text_of(table);
+  return table;
 }
 
 /// The row of the fitted readings says so if it counts outliers.
@@ -84,16 +86,17 @@ void add_interval(const MeanInterval& interval, Json& out) {
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
 }
 
-std::string folds_text(int folds, int readings) {
-  if (folds == 0) return "";
-  return fmt::format(
-      "  held-out: {} folds, each predicted by a model fitted without it; the model itself uses "
-      "all {}\n",
-      folds, readings);
+Blocks folds_note(int folds, int readings) {
+  if (folds == 0) return {};
+  return {Note{fmt::format("held-out: {} folds, each predicted by a model fitted without it; the "
+                           "model itself uses all {}",
+                           folds, readings),
+               Note::Stands::kUnderTable}};
 }
 
 Table error_table(const Measurements& measured, const Fit& fit) {
-  Table table{.caption = "Position errors, measured - predicted [mm]",
+  Table table{.name = "errors",
+              .caption = "Position errors, measured - predicted [mm]",
               .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
                        head::kRms, head::kP95, head::kMax}};
   table.add(
@@ -108,9 +111,11 @@ Table error_table(const Measurements& measured, const Fit& fit) {
   return table;
 }
 
-std::string error_text(const Measurements& measured, const Fit& fit) {
-  return text_of(error_table(measured, fit)) + folds_text(fit.split.folds, fit.fit.n) +
-         turn_table(fit.turn_held);
+Blocks error_blocks(const Measurements& measured, const Fit& fit) {
+  Blocks out{error_table(measured, fit)};
+  append(out, folds_note(fit.split.folds, fit.fit.n));
+  out.emplace_back(turn_table(fit.turn_held));
+  return out;
 }
 
 void add_turns(const ErrorStats& turn_held, Json& out) {

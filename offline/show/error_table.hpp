@@ -6,21 +6,22 @@
 
 #include "fit/fit.hpp"
 #include "fit/mean_interval.hpp"
+#include "show/block.hpp"
 #include "show/json.hpp"
 #include "show/table.hpp"
 
 namespace plumb::offline::show {
 
-/// How the held-out poses were chosen, a line for below the table: "  held-out: 5 folds; ...".
-/// Empty without folds.
-std::string folds_text(int folds, int readings);
+/// How the held-out poses were chosen, for below a table: "held-out: 5 folds, ..."; nothing without
+/// folds.
+Blocks folds_note(int folds, int readings);
 
 /// Errors of the measured positions [mm]: before and after on the held-out readings, on the fitted
 /// ones, and the noise floor.
 Table error_table(const Measurements& measured, const Fit& fit);
 
-/// The same for a terminal, with a line on the folds and the errors of fitted orientations [deg].
-std::string error_text(const Measurements& measured, const Fit& fit);
+/// The same with a note on the folds and the errors of fitted orientations [deg].
+Blocks error_blocks(const Measurements& measured, const Fit& fit);
 
 /// "0.141 .. 0.187"; empty if it is not known.
 std::string text_of(const MeanInterval& interval);

@@ -67,8 +67,12 @@ Json effects_json(const Cell& cell) {
   return out;
 }
 
-std::string parameter_table(const std::vector<Estimate>& estimates) {
+Note under_table(std::string words) { return {std::move(words), Note::Stands::kUnderTable}; }
+
+Table parameter_table(const std::vector<Estimate>& estimates) {
   Table table{
+      .name = "parameters",
+      .caption = "Fitted numbers of the arm and its effects",
       .head = {head::kParameter, head::kNominal, head::kFitted, head::kChange, head::kSigma, ""}};
   table.left_from = 5;
   for (const auto& e : estimates) {
@@ -78,7 +82,7 @@ std::string parameter_table(const std::vector<Estimate>& estimates) {
                (e.value > e.nominal ? "+" : "") + u.text(e.value - e.nominal), u.text(e.std),
                u.name});
   }
-  return text_of(table);
+  return table;
 }
 
 Json setups_json(const MeasurementSettings& m, const ArmState& state) {
@@ -95,12 +99,14 @@ Json setups_json(const MeasurementSettings& m, const ArmState& state) {
   return out;
 }
 
-/// One line for each of several set-ups.
+/// A row for each of several set-ups.
 ///
 /// @param held  Names of parameters that the readings leave open.
-std::string setups_text(const MeasurementSettings& m, const ArmState& state,
-                        const std::vector<std::string>& held) {
-  Table table{.head = {"set-up [mm]", "frame", "x", "y", "z", "target", "x", "y", "z"}};
+Blocks setups_blocks(const MeasurementSettings& m, const ArmState& state,
+                     const std::vector<std::string>& held) {
+  Table table{.name = "setups",
+              .caption = "Where tracker and reflector stood",
+              .head = {"set-up [mm]", "frame", "x", "y", "z", "target", "x", "y", "z"}};
   const auto how = [&](bool fitted, int root, int k) {
     return root != k ? "as " + setup_name(m, root) : std::string(fitted ? "fitted" : "given");
   };
@@ -116,13 +122,8 @@ std::string setups_text(const MeasurementSettings& m, const ArmState& state,
     table.add({setup_name(m, k), frame_how(k), mm(f[0]), mm(f[1]), mm(f[2]),
                how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
   }
-  return text_of(table) +
-         "  frame: base in the measurement frame; target: reflector in the tool frame\n";
-}
-
-std::string tree_text(const Fit& fit) {
-  if (!fit.tree) return "";
-  return "  tree: " + fit.tree->reason + "\n";
+  return {std::move(table),
+          under_table("frame: base in the measurement frame; target: reflector in the tool frame")};
 }
 
 Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
@@ -141,35 +142,40 @@ Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
 }
 
 /// Frames of set-ups have no nominal place; the table of set-ups says which of them are guessed.
-std::string held_text(std::vector<std::string> held) {
+Blocks held_note(std::vector<std::string> held) {
   std::erase_if(held, [](const std::string& name) { return name.starts_with("frame["); });
-  if (held.empty()) return "";
-  return fmt::format("  kept at nominal, because these poses say too little about them: {}\n",
-                     fmt::join(held, ", "));
+  if (held.empty()) return {};
+  return {
+      under_table(fmt::format("kept at nominal, because these poses say too little about them: {}",
+                              fmt::join(held, ", ")))};
 }
 
 /// What the series of waves came to: their numbers are too many to be listed.
-std::string series_text(const Cell& cell, const ArmState& state) {
+Blocks series_note(const Cell& cell, const ArmState& state) {
   const std::string waves = series_words(cell, state.arm);
-  return waves.empty() ? "" : fmt::format("  series of waves: {}\n", waves);
+  if (waves.empty()) return {};
+  return {under_table("series of waves: " + waves)};
 }
 
-}  // namespace
-
-std::string measurement_text(const Cell& cell, const ArmState& state,
-                             const std::vector<std::string>& held) {
-  if (state.setups() > 1) return setups_text(cell.measurement, state, held);
+/// Where tracker and reflector stood.
+Blocks measurement_blocks(const Cell& cell, const ArmState& state,
+                          const std::vector<std::string>& held) {
+  if (state.setups() > 1) return setups_blocks(cell.measurement, state, held);
   const Setup rule = setup_rule(cell.measurement, 0);
   const auto& f = state.X_MB;
   const auto& t = state.X_TG.p;
   const auto how = [](bool fitted) { return fitted ? "fitted" : "given"; };
-  return fmt::format(
-      "  frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
-      "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})\n"
-      "  target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm\n",
-      how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1], f.q[2],
-      f.q[3], how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
+  return {under_table(fmt::format(
+              "frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
+              "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})",
+              how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1],
+              f.q[2], f.q[3])),
+          under_table(
+              fmt::format("target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm",
+                          how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2])))};
 }
+
+}  // namespace
 
 Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
               const Answers& answers) {
@@ -212,18 +218,31 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
   add_verdict(cell, fit, answers, out);
+  out["blocks"] = to_json(fit_blocks(cell, measured, fit, answers));
   return out;
 }
 
-std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit,
-                     const Answers& answers) {
+Blocks arm_blocks(const Cell& cell, const Fit& fit) {
   const Calibration& c = fit.calibration;
-  std::string out = answers.sentence + "\n\n" + error_text(measured, fit) + "\n";
-  out += parameter_table(c.estimates) + "\n" + held_text(c.held);
-  out += likeness_text(c);
-  out += series_text(cell, c.state) + measurement_text(cell, c.state, c.held) + tree_text(fit);
-  return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",
-                           c.estimates.size(), c.iterations);
+  Blocks out{parameter_table(c.estimates)};
+  append(out, held_note(c.held));
+  append(out, likeness_notes(c));
+  append(out, series_note(cell, c.state));
+  append(out, measurement_blocks(cell, c.state, c.held));
+  if (fit.tree) out.emplace_back(under_table("tree: " + fit.tree->reason));
+  out.emplace_back(
+      under_table(fmt::format("{} numbers fitted, frame and target included; {} iterations",
+                              c.estimates.size(), c.iterations)));
+  return out;
+}
+
+Blocks fit_blocks(const Cell& cell, const Measurements& measured, const Fit& fit,
+                  const Answers& answers) {
+  Blocks out{Sentence{answers.sentence, name_of(grade(fit, cell.tolerance_m))}};
+  append(out, error_blocks(measured, fit));
+  append(out, arm_blocks(cell, fit));
+  out.emplace_back(action_of(answers.next));
+  return out;
 }
 
 }  // namespace plumb::offline::show

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "answers/answers.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/fit.hpp"
+#include "show/block.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {
@@ -15,14 +14,12 @@ namespace plumb::offline::show {
 Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
               const Answers& answers);
 
-/// Verdict, error table, parameters with 1 sigma, frame, target, tree.
-std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit,
-                     const Answers& answers);
+/// Verdict, errors, the fitted arm, and what to do next.
+Blocks fit_blocks(const Cell& cell, const Measurements& measured, const Fit& fit,
+                  const Answers& answers);
 
-/// Where base and reflector stood, of each set-up, as indented lines.
-///
-/// @param held  Names of the parameters that the readings leave open.
-std::string measurement_text(const Cell& cell, const ArmState& state,
-                             const std::vector<std::string>& held);
+/// Of the fitted arm alone: parameters with 1 sigma, what was taken over from an earlier arm, where
+/// base and reflector stood, the tree.
+Blocks arm_blocks(const Cell& cell, const Fit& fit);
 
 }  // namespace plumb::offline::show

@@ -26,8 +26,8 @@ void add_likeness(const Calibration& found, Json& result) {
                     {"decided_by_readings", found.decided}};
 }
 
-std::string likeness_text(const Calibration& found) {
-  if (!found.likeness) return "";
+Blocks likeness_notes(const Calibration& found) {
+  if (!found.likeness) return {};
   const Likeness& like = *found.likeness;
   const std::string run = display_name(like.run);
   std::string out;
@@ -59,10 +59,11 @@ std::string likeness_text(const Calibration& found) {
           "one; taken over give or take {}.",
           run, difference(like));
   }
-  return out + fmt::format(
-                   "\n  frame and target included, the readings decide {:.0f} of the {} "
-                   "numbers, and the earlier run the others\n",
-                   found.decided, found.estimates.size());
+  return {Note{std::move(out)},
+          Note{fmt::format("frame and target included, the readings decide {:.0f} of the {} "
+                           "numbers, and the earlier run the others",
+                           found.decided, found.estimates.size()),
+               Note::Stands::kUnderTable}};
 }
 
 }  // namespace plumb::offline::show

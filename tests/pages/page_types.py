@@ -20,9 +20,14 @@ def kind_of(schema, kind):
     return KINDS.get(kind, kind)
 
 
+def name_of(definition):
+    """noise_floor -> NoiseFloor"""
+    return "".join(word.capitalize() for word in definition.split("_"))
+
+
 def type_of(schema):
     if "$ref" in schema:
-        return schema["$ref"].rpartition("/")[2].capitalize()
+        return name_of(schema["$ref"].rpartition("/")[2])
     if "anyOf" in schema:
         return " | ".join(type_of(one) for one in schema["anyOf"])
     if "enum" in schema:
@@ -42,13 +47,14 @@ def braces(schema, required):
 
 
 def page():
-    statistics = json_page.load("common")["$defs"]["statistics"]
+    shared = json_page.load("common")["$defs"]
     diagnose = json_page.load("diagnose")
     required = diagnose["then"]["properties"]["result"]["required"]
     return "\n".join([
         "// SPDX-License-Identifier: Apache-2.0",
         "// Made from docs/schemas by tests/pages/page_types.py; do not edit.", "",
-        "export interface Statistics " + braces(statistics, statistics["required"]), "",
+        *(line for name in ("statistics", "finding", "noise_floor", "blocks")
+          for line in (f"export type {name_of(name)} = {type_of(shared[name])};", "")),
         "export interface Diagnosis " + braces(diagnose["properties"]["result"], required), ""])
 
 

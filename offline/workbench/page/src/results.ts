@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 // Made from docs/schemas by tests/pages/page_types.py; do not edit.
 
-export interface Statistics {
+export type Statistics = {
   n: number;
   mean_mm: number | null;
   rms_mm: number | null;
   p95_mm: number | null;
   max_mm: number | null;
-}
+};
+
+export type Finding = {
+  class: "good" | "good_but" | "limited" | "missing" | "undecidable" | "not_good";
+  sentence: string;
+  where: string;
+  why: { text: string; state: "certain" | "a_or_b" | "doubtful" | "nothing" | "not_looked" };
+  next: string;
+  next_why: string;
+};
+
+export type NoiseFloor = { measured_mm: number | null; inferred_mm: number | null; source: "repeats" | "sigma" | "none" };
+
+export type Blocks = {
+  kind: "sentence" | "note" | "table" | "figure" | "action";
+  words?: string;
+  class?: "good" | "partly" | "bad" | "unknown" | "";
+  name?: string;
+  caption?: string;
+  head?: string[];
+  rows?: string[][];
+  command?: string;
+  why?: string;
+}[];
 
 export interface Diagnosis {
   verdict: "complete" | "missing" | "unknown" | "undecidable";
   verdict_text: string;
   finding: Finding | null;
-  noise_floor: Noise_floor;
+  blocks: Blocks;
+  noise_floor: NoiseFloor;
   noise_floor_mm: number | null;
   noise_floor_rms_mm: number | null;
   noise_floor_source?: "repeats" | "sigma";
@@ -66,6 +90,7 @@ export interface Diagnosis {
     domain: string;
     supported: boolean;
     plausible: boolean;
+    support: string;
     options: Record<string, unknown>;
     parameters: {
       name: string;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the server sends. docs/workbench.md describes it; the results of verbs are those of --json.
 
-import type { Diagnosis, Statistics } from "./results";
+import type { Blocks, Diagnosis, Finding, Statistics } from "./results";
 
-export type { Diagnosis, Statistics };
+export type { Blocks, Diagnosis, Finding, Statistics };
 export type Candidate = Diagnosis["candidates"][number];
 
 export interface Place { file: string; line: number; column: number }

@@ -8,7 +8,7 @@ import { Scroll } from "../parts/card";
 import { Command } from "../parts/command";
 import { Figure } from "../parts/figure";
 import type { Candidate } from "../types";
-import { evidenceWord, planName, titleOf, type Group } from "./groups";
+import { planName, titleOf, type Group } from "./groups";
 
 function Numbers({ of }: { of: Candidate }) {
   if (of.parameters.length === 0) return null;
@@ -77,7 +77,7 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
       <Fall before={before} after={first.held_out_alone_mm} />
       <dl class="facts">
         <div><dt>Held-out error with it</dt><dd>{mm(before)} → <strong>{mm(first.held_out_alone_mm)}</strong> mm</dd></div>
-        <div><dt>Evidence</dt><dd title={`natural logarithm of its Bayes factor: ${plain(first.ln_bayes)}`}>{evidenceWord(first.ln_bayes)}</dd></div>
+        <div><dt>Supported</dt><dd title={`natural logarithm of its Bayes factor: ${plain(first.ln_bayes)}`}>{first.support}</dd></div>
         <div><dt>Explains</dt><dd>{first.share_pct === null ? kNone : `${first.share_pct.toFixed(0)} % of what is left`}</dd></div>
         <div><dt>Largest motion</dt><dd>{mm(first.largest_mm)} mm</dd></div>
       </dl>

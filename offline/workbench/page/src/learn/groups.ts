@@ -35,11 +35,5 @@ export function grouped(candidates: Candidate[]): Group[] {
   return out;
 }
 
-/** Evidence in words; the natural logarithm of a Bayes factor of 10 decides. */
-export function evidenceWord(nats: number | null): string {
-  if (nats === null) return "unknown";
-  if (nats >= 10) return "certain";
-  if (nats >= 5) return "strong";
-  if (nats >= 2) return "weak";
-  return "none";
-}
+/** Whether adding it is advised: the poses support it, alone or as one of several, and unseen ones agree. */
+export const helps = ({ support }: Candidate): boolean => support === "yes" || support.startsWith("one of");
