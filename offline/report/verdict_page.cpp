@@ -10,6 +10,7 @@
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "report/report.hpp"
+#include "show/block.hpp"
 #include "show/compare_words.hpp"
 #include "show/counted.hpp"
 #include "show/error_table.hpp"
@@ -26,6 +27,15 @@ void put_verdict(const ReportData& data, Html& html) {
       "<div class=\"verdict {}\" role=\"note\"><strong>{} {}</strong><p>{}</p></div>\n", found,
       verdict_mark(found), draw::escaped(verdict_head(data.run.fit, data.cell.tolerance_m)),
       draw::escaped(data.answers.sentence)));
+}
+
+/// Where, why and what next stand on the first page: most readers see no other.
+void put_answers(const Answers& answers, Html& html) {
+  const show::Action next = show::action_of(answers.next);
+  html.facts({{"Where does it fail?", answers.where},
+              {"Why?", answers.why.text},
+              {"What next?", "plumb " + next.command +
+                                 (next.why.empty() ? "" : fmt::format(" ({})", next.why))}});
 }
 
 /// Whether the file says the tolerance, outside comments.
@@ -141,6 +151,7 @@ std::optional<bool> is_good(const Run& run, double tolerance_m) {
 Html verdict_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
   put_verdict(data, html);
+  put_answers(data.answers, html);
   if (!data.run_is_current)
     html.paragraph(fmt::format(
         "Run {} was made from another cell.toml than the present one: what this report says of the "

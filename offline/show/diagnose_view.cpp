@@ -125,8 +125,9 @@ Blocks candidates_blocks(const Cell& cell, const Diagnosis& d, Candidates shown)
   const bool all = shown == Candidates::kAll || d.candidates.size() <= kShown;
   Blocks out{shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d)};
   if (!all)
-    out.emplace_back(Note{fmt::format("and {} more: --all", d.candidates.size() - kShown),
-                          Note::Stands::kUnderTable});
+    out.emplace_back(
+        Note{fmt::format("and {} more: plumb diagnose --all", d.candidates.size() - kShown),
+             Note::Stands::kUnderTable});
   if (d.candidates.front().supported) out.emplace_back(Note{first_candidate_text(cell, d)});
   return out;
 }

@@ -85,7 +85,7 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
       {!first.supported && <p class="note">The evidence is not enough to add it.</p>}
       <AddButton of={first} first={addFirst} />
       <Folded others={others} of={first} separate={first.separate_by}
-        summary={`Cannot be told apart from ${others.length === 1 ? "one other candidate" : `${others.length} other candidates`} in these poses`} />
+        summary={`${others.length === 1 ? "One other candidate looks" : `${others.length} other candidates look`} similar in these poses`} />
       <Folded others={variants} summary={`The same effect in ${variants.length === 1 ? "another form" : `${variants.length} other forms`}`} />
       {more && <p class="muted">Hard to tell from {first.confounded.join(", ")}.{first.separate_by && ` What would separate them: ${first.separate_by}`}</p>}
       <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>

@@ -32,7 +32,7 @@ function Folded({ name }: { name: string }) {
   const [open, setOpen] = useState(false);
   return (
     <details onToggle={(event) => { if (event.currentTarget.open) setOpen(true); }}>
-      <summary>The figure {name}</summary>
+      <summary>Figure: {name}</summary>
       {open && <Figure name={name} />}
     </details>
   );
@@ -41,14 +41,14 @@ function Folded({ name }: { name: string }) {
 /** A result as the command shows it, block by block; tables that the page shows in another way are replaced by name. */
 export function Blocks({ of, instead = {} }: { of: All; instead?: Record<string, ComponentChildren> }) {
   return (
-    <>
+    <div class="blocks">
       {of.map((block) => {
         if (block.kind === "sentence") return <p class={`sentence ${block.class ?? ""}`}>{block.words}</p>;
-        if (block.kind === "note") return <p class="note">{block.words}</p>;
+        if (block.kind === "note") return <p class="muted">{block.words}</p>;
         if (block.kind === "table") return block.name && block.name in instead ? instead[block.name] : <Table of={block} />;
         if (block.kind === "figure") return <Folded name={block.name ?? ""} />;
-        return <div class="next">{block.why && <span>{block.why} </span>}<Command line={(block.command ?? "").replace(/^plumb/, command.value)} /></div>;
+        return <div class="next"><span>Next{block.why && `, ${block.why}`}:</span> <Command line={(block.command ?? "").replace(/^plumb/, command.value)} /></div>;
       })}
-    </>
+    </div>
   );
 }
