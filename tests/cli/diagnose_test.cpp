@@ -79,7 +79,7 @@ TEST_F(DiagnoseVerb, SaysWhatIsLeftAndThatMoreCandidatesExist) {
   EXPECT_TRUE(result.at("unlikely").empty());
   const auto listed = result.at("candidates").size();
   ASSERT_GT(listed, 8U);
-  const std::string more = "and " + std::to_string(listed - 8) + " more: --all";
+  const std::string more = "and " + std::to_string(listed - 8) + " more: plumb diagnose --all";
   EXPECT_NE(plumb({"diagnose"}).out.find(more), std::string::npos);
 }
 
