@@ -115,5 +115,19 @@ TEST_F(Flood, GarbageOfTheOwnUserIsAnsweredOrDroppedAndTheCycleGoesOn) {
   EXPECT_EQ(after["state"], "active");
 }
 
+/// A mistyped name of a file is no reason to end the program that corrects a robot.
+TEST_F(Flood, AFileWhoseNameIsNoTextIsRefusedByNameAndTheCycleGoesOn) {
+  const auto answer = drivers::rt::ask(socket, "swap /tmp/no-\xff-text.plumb\n", 10'000);
+  ASSERT_TRUE(answer);
+  const auto said = nlohmann::json::parse(*answer, nullptr, false);
+  ASSERT_TRUE(said.is_object()) << *answer;
+  EXPECT_EQ(said["ok"], false);
+  EXPECT_NE(said["error"]["message"].get<std::string>().find("-text.plumb"), std::string::npos);
+  const auto after = status();
+  ASSERT_TRUE(after.is_object()) << "it lives";
+  EXPECT_EQ(after["state"], "active");
+  EXPECT_EQ(after["counters"]["stalls"], 0);
+}
+
 }  // namespace
 }  // namespace plumb::tests
