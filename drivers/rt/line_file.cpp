@@ -24,8 +24,8 @@ LineFile::LineFile(std::filesystem::path file)
 LineFile::~LineFile() {
   if (fd_ < 0) return;
   flush();
+  if (length_ == 0 && !removed()) ::unlink(file_.c_str());
   ::close(fd_);
-  if (length_ == 0) ::unlink(file_.c_str());
 }
 
 void LineFile::add(const std::string& lines) {
