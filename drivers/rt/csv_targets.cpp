@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -39,6 +41,8 @@ class CsvFile {
       refuse(line, fmt::format("'{}' is '{}': not a finite number", column, text));
     return value;
   }
+
+  bool has(const std::string& column) const { return columns_.contains(column); }
 
   double need(int line, const Row& row, const std::string& column) const {
     const auto value = number(line, row, column);
@@ -86,13 +90,15 @@ CsvTarget target(const CsvFile& csv, int line, const Row& row, int joints) {
   format::Pose pose;
   const char* const lengths[] = {"x_mm", "y_mm", "z_mm"};
   for (std::size_t k = 0; k < 3; ++k) pose.p[k] = 1e-3 * csv.need(line, row, lengths[k]);
-  const char* const turns[] = {"qw", "qx", "qy", "qz"};
-  double square = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    pose.q[k] = csv.number(line, row, turns[k]).value_or(k == 0 ? 1.0 : 0.0);
+  const std::array turns{"qw", "qx", "qy", "qz"};
+  const bool turned = std::ranges::any_of(turns, [&](const char* turn) { return csv.has(turn); });
+  double square = turned ? 0.0 : 1.0;
+  for (std::size_t k = 0; turned && k < turns.size(); ++k) {
+    pose.q[k] = csv.need(line, row, turns[k]);
     square += pose.q[k] * pose.q[k];
   }
-  if (!(square > 0.25)) csv.refuse(line, "qw, qx, qy, qz are no rotation");
+  if (!(square > 0.25) || !std::isfinite(square))
+    csv.refuse(line, "qw, qx, qy, qz are no rotation");
   for (double& q : pose.q) q /= std::sqrt(square);
   CsvTarget out{.X_BD = from_pose(pose), .q = {}};
   for (int i = 0; i < joints; ++i) out.q.push_back(joint(csv, line, row, i));

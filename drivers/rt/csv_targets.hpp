@@ -15,7 +15,7 @@ struct CsvTarget {
   std::vector<double> q;
 };
 
-/// Reads the columns x_mm y_mm z_mm, q1_deg … (or _rad, _mm), and qw qx qy qz if there is an
+/// Reads the columns x_mm y_mm z_mm, q1_deg … (or _rad, _mm), and all of qw qx qy qz if there is an
 /// orientation. Other columns and lines that begin with # are ignored. Throws Failure (kInput,
 /// E-RT-CSV).
 std::vector<CsvTarget> read_csv_targets(const std::filesystem::path& file, int joints);
