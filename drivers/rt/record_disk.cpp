@@ -37,6 +37,7 @@ std::optional<std::uint64_t> number_in(const std::string& name, const std::strin
   std::uint64_t out = 0;
   const auto read = std::from_chars(begin, end, out);
   if (read.ec != std::errc() || read.ptr != end || *begin == '0') return std::nullopt;
+  if (out == std::numeric_limits<std::uint64_t>::max()) return std::nullopt;  // none can follow it
   return out;
 }
 
