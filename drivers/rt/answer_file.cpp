@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstring>
 
 #include "plumb/drivers/bus_content.hpp"
@@ -28,23 +27,25 @@ void AnswerFile::check(const std::filesystem::path& file) {
   if (const int error = creation_error(file); error != 0) refuse(file, error);
 }
 
-AnswerFile::AnswerFile(const std::filesystem::path& file) : file_(std::fopen(file.c_str(), "wxe")) {
-  if (file_ == nullptr) refuse(file, errno);
-  std::fputs("t_s,counter,cx_mm,cy_mm,cz_mm,cqw,cqx,cqy,cqz\n", file_);
+AnswerFile::AnswerFile(const std::filesystem::path& file) : out_(file) {
+  if (out_.error() != 0) refuse(file, out_.error());
+  out_.add("t_s,counter,cx_mm,cy_mm,cz_mm,cqw,cqx,cqy,cqz\n");
 }
-
-AnswerFile::~AnswerFile() { std::fclose(file_); }
 
 void AnswerFile::add(const BusMessage& corrected) {
   if (corrected.kind != MessageKind::kCorrected) return;
   const auto X_BC = pose_in(corrected);
   if (!X_BC) return;
   const format::Pose pose = to_pose(*X_BC);
-  const std::string line =
-      fmt::format("{:.6f},{},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}\n",
-                  1e-9 * static_cast<double>(corrected.time_ns), corrected.counter, 1e3 * pose.p[0],
-                  1e3 * pose.p[1], 1e3 * pose.p[2], pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
-  sound_ = std::fputs(line.c_str(), file_) >= 0 && sound_;
+  out_.add(fmt::format("{:.6f},{},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}\n",
+                       1e-9 * static_cast<double>(corrected.time_ns), corrected.counter,
+                       1e3 * pose.p[0], 1e3 * pose.p[1], 1e3 * pose.p[2], pose.q[0], pose.q[1],
+                       pose.q[2], pose.q[3]));
+}
+
+int AnswerFile::write() {
+  out_.flush();
+  return out_.error();
 }
 
 }  // namespace plumb::drivers::rt

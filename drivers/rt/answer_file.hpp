@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
 
 #include "plumb/drivers/bus_message.hpp"
+#include "rt/line_file.hpp"
 
 namespace plumb::drivers::rt {
 
-/// Corrected targets as a CSV file: t_s,counter,cx_mm … cqz.
+/// Corrected targets as a CSV file: t_s,counter,cx_mm … cqz. It ends with a whole line, also when
+/// the disk is full.
 class AnswerFile {
  public:
   /// An existing file is not replaced. Throws Failure (kEnvironment, E-RT-SINK).
   explicit AnswerFile(const std::filesystem::path& file);
   /// Throws what the constructor would throw, without creating a file.
   static void check(const std::filesystem::path& file);
-  ~AnswerFile();
-  AnswerFile(const AnswerFile&) = delete;
-  AnswerFile& operator=(const AnswerFile&) = delete;
 
   /// Messages of other kinds are ignored.
   void add(const BusMessage& corrected);
 
-  /// True if every line so far has reached the file.
-  bool sound() const noexcept { return sound_; }
+  /// Writes what was added. Returns the errno of the first line that did not reach the file, and no
+  /// line after it does; 0: all are there.
+  int write();
+
+  const std::filesystem::path& file() const noexcept { return out_.file(); }
 
  private:
-  std::FILE* file_;
-  bool sound_ = true;
+  LineFile out_;
 };
 
 }  // namespace plumb::drivers::rt

@@ -137,7 +137,14 @@ void Recorder::tell() {
   now.snapshot = snapshots_.last().string();
   now.snapshot_failure = snapshots_.failure();
   now.snapshots = snapshots_.made();
+  const int answers_error = answers_ ? answers_->write() : 0;
   const std::scoped_lock lock(mutex_);
+  if (answers_error != 0 && !answers_stopped_)
+    notices_.push_back(
+        {"answers-stopped",
+         {{"reason", why_not_written(answers_->file(), answers_error,
+                                     "the file of corrected targets", real_disk())}}});
+  answers_stopped_ = answers_error != 0;
   if (facts_.failure.empty() && !now.failure.empty())
     notices_.push_back({"record-paused", {{"reason", now.failure}}});
   if (!facts_.failure.empty() && now.failure.empty())

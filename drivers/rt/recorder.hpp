@@ -86,6 +86,7 @@ class Recorder {
   std::unique_ptr<RecordWriter> record_;  // none: not asked for
   Snapshots snapshots_;
   std::unique_ptr<AnswerFile> answers_;
+  bool answers_stopped_ = false;  // a line of them was lost, and that was said
   SessionStart session_;
   bool begun_ = false;
   bool asked_ = false;         // for a copy of the session that has not come yet

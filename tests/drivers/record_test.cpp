@@ -11,7 +11,9 @@
 #include "rt/record_line.hpp"
 #include "rt/record_writer.hpp"
 #include "rt/recorder.hpp"
+#include "tests/drivers/child.hpp"
 #include "tests/drivers/deployed.hpp"
+#include "tests/drivers/rt/disk_limit.hpp"
 
 namespace plumb::tests {
 namespace {
@@ -283,6 +285,31 @@ TEST_F(RecorderRing, APauseAndItsEndAreSaidOnce) {
   go(100);
   EXPECT_EQ(recorder.facts().failure, "");
   EXPECT_EQ(said, "record-paused record-resumed ");
+}
+
+/// The corrected targets of a run without a robot are its result.
+TEST_F(RecorderRing, AnswersThatTheDiskDoesNotTakeAreSaidOnce) {
+  EXPECT_EQ(in_child([&] {
+              limit_files(300);
+              Recorder recorder({.record = {}, .snapshots = {}, .answers = folder / "answers.csv"},
+                                default_layout(6, 0.004), "test", *shared, {});
+              int said = 0;
+              for (int i = 0; i < 50; ++i) {
+                shared->record.put({.what = RecordEntry::What::kSent,
+                                    .tick = {},
+                                    .message = pose_message(MessageKind::kCorrected, {}, 1)});
+                recorder.pass(now_ns);
+                for (const RecordNotice& notice : recorder.take_notices())
+                  said += std::string(notice.event) == "answers-stopped" &&
+                                  notice.details.dump().find("answers.csv: File too large") !=
+                                      std::string::npos
+                              ? 1
+                              : 100;
+                if (i == 0 && said != 0) return 200;  // one answer fits
+              }
+              return said;
+            }),
+            1);
 }
 
 }  // namespace
