@@ -28,6 +28,7 @@ std::vector<std::vector<int>> joint_orders(const std::vector<int>& joints) {
       order = joints;
       std::rotate(order.begin() + begin, order.begin() + end, order.begin() + end + 1);
       out.push_back(order);
+      if (to == from + 2) continue;  // reversed, these are swapped
       order = joints;
       std::reverse(order.begin() + begin, order.begin() + end + 1);
       out.push_back(order);
