@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "check/moved_part.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "check/check.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
+#include "tests/check/simulated_arm.hpp"
+#include "tests/random_numbers.hpp"
 
 /// What moved once while the arm was measured, and what only looks like it.
 namespace plumb::offline {
@@ -135,6 +140,60 @@ TEST(MovedPart, AnArmThatYieldsUnderAnotherPayloadFromHalfWayOnDidNotMove) {
     const Check check = check_cell(cell, measured);
     const Problem* problem = moved(check);
     EXPECT_EQ(problem, nullptr) << seed << ": " << (problem ? problem->message : "");
+  }
+}
+
+/// A tracker that was pushed by `shift_M` before the row `first`.
+SimulatedArm pushed(std::uint64_t seed, int first, const Eigen::RowVector3d& shift_M) {
+  SimulatedArm out = simulated_arm(seed, kPoses);
+  for (int i = first; i < out.measured.size(); ++i) out.measured.p_M.row(i) += shift_M;
+  return out;
+}
+
+std::optional<MovedPart> moved_in(const SimulatedArm& at) {
+  return moved_part(at.cell, at.measured, at.rows, place_nominal(at.cell, at.measured, at.rows));
+}
+
+TEST(MovedPart, IsPlacedBetweenTheLinesWhereItMoved) {
+  const Eigen::RowVector3d shift(9e-3, -12e-3, 8e-3);
+  for (const int first : {20, 45, 70}) {
+    const SimulatedArm at = pushed(4, first, shift);
+    const auto found = moved_in(at);
+    ASSERT_TRUE(found) << first;
+    const auto& lines = at.measured.tables.front().lines;
+    const auto line = [&](int row) { return std::to_string(lines[static_cast<std::size_t>(row)]); };
+    EXPECT_TRUE(holds(found->words, "between lines " + line(first - 1) + " and " + line(first)))
+        << found->words;
+    EXPECT_TRUE(holds(found->finding.message, found->words)) << found->finding.message;
+    EXPECT_TRUE(holds(found->finding.help, "--set after_row=" + std::to_string(first) + " "))
+        << found->finding.help;
+    ASSERT_TRUE(found->finding.place);
+    EXPECT_EQ(found->finding.place->line, lines[static_cast<std::size_t>(first)]);
+    const std::string before = "moved by some ";
+    const auto size = found->words.find(before);
+    ASSERT_NE(size, std::string::npos) << found->words;
+    EXPECT_NEAR(std::atof(found->words.c_str() + size + before.size()), 1e3 * shift.norm(),
+                0.1 * 1e3 * shift.norm())
+        << found->words;
+  }
+}
+
+TEST(MovedPart, OfReadingsThatStandInNoFileIsPlacedByTheirNumbers) {
+  SimulatedArm at = pushed(4, 45, {9e-3, -12e-3, 8e-3});
+  at.measured.tables.clear();
+  const auto found = moved_in(at);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(holds(found->words, "between rows 45 and 46")) << found->words;
+  EXPECT_FALSE(found->finding.place);
+}
+
+TEST(MovedPart, IsNoneWhereNothingMovedOrEachReadingIsOffByItself) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SimulatedArm at = pushed(seed, 45, Eigen::RowVector3d::Zero());
+    EXPECT_FALSE(moved_in(at)) << seed;
+    tests::Random random(seed);
+    for (double& x : at.measured.p_M.reshaped()) x += random.uniform(-5e-3, 5e-3);
+    EXPECT_FALSE(moved_in(at)) << seed;
   }
 }
 

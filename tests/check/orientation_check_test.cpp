@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "check/orientation_check.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +13,7 @@
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
 #include "tests/check/scrambled.hpp"
+#include "tests/check/simulated_arm.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -521,6 +524,62 @@ TEST(OrientationCheck, AllNamesOfRotationsAreReadAsTheySay) {
         case_of(folder, measured, {"# rot: " + name, "rx_rad,ry_rad,rz_rad", numbers});
     EXPECT_EQ(check_orientations(files.cell, files.measured).judged.kind, Kind::kGood) << name;
   }
+}
+
+/// Quaternions whose scalar part stands last, under headings that put it first.
+Written with_scalar_last() {
+  return {"", "qw,qx,qy,qz", [](const Reading& r) {
+            const auto q = wxyz(r.turn);
+            return std::vector<double>{q[1], q[2], q[3], q[0]};
+          }};
+}
+
+OrientationCheck checked_alone(double stated_urad, const Written& written) {
+  Measured measured = measured_with(welder(), {});
+  measured.stated_urad = stated_urad;
+  const scrambled::Folder folder;
+  const auto c = case_of(folder, measured, written);
+  return check_orientations(c.cell, c.measured);
+}
+
+TEST(OrientationCheckAlone, StopsOnlyWhereTheCellAsksForWhatIsMeantOtherwise) {
+  for (const double stated_urad : {40.0, 0.0}) {
+    const OrientationCheck right = checked_alone(stated_urad, as_quaternion());
+    EXPECT_FALSE(right.stops());
+    EXPECT_TRUE(right.edit.empty());
+    EXPECT_FALSE(orientation_finding(right));
+
+    const OrientationCheck wrong = checked_alone(stated_urad, with_scalar_last());
+    EXPECT_EQ(wrong.judged.kind, Kind::kOtherwise);
+    ASSERT_EQ(wrong.meant.size(), 1U);
+    EXPECT_FALSE(wrong.edit.empty()) << "one interpretation fits";
+    EXPECT_EQ(wrong.stops(), stated_urad > 0.0);
+    const auto found = orientation_finding(wrong);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->code, stated_urad > 0.0 ? "E-CHECK-ORIENTATION" : "W-CHECK-ORIENTATION");
+    EXPECT_EQ(found->severity, stated_urad > 0.0 ? Severity::kError : Severity::kWarning);
+    EXPECT_EQ(found->help, "plumb check --fix");
+  }
+}
+
+/// Several ways of reading them that fit alike leave the choice to the user.
+TEST(OrientationCheckAlone, IsNoReasonToStopWhereSeveralInterpretationsFit) {
+  OrientationCheck check = checked_alone(40.0, with_scalar_last());
+  check.meant.push_back("something else");
+  check.edit = {};
+  EXPECT_FALSE(check.stops());
+  const auto found = orientation_finding(check);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->code, "W-CHECK-ORIENTATION");
+  EXPECT_NE(found->help, "plumb check --fix");
+}
+
+TEST(OrientationCheckAlone, OfFilesWithoutOrientationsIsNone) {
+  const SimulatedArm arm = simulated_arm(1, 30);
+  const OrientationCheck none = check_orientations(arm.cell, arm.measured);
+  EXPECT_EQ(none.judged.kind, Kind::kNone);
+  EXPECT_FALSE(none.stops());
+  EXPECT_FALSE(orientation_finding(none));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "check/row_faults.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +14,7 @@
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
+#include "tests/check/simulated_arm.hpp"
 
 /// Rows that were written otherwise than the others, from one line to another.
 namespace plumb::offline {
@@ -192,6 +195,60 @@ TEST(RowFaults, SoundFilesAndOtherErrorsNameNone) {
     for (std::size_t i = 40; i < rows.size(); ++i) rows[i][8] += 5.0;
   };
   EXPECT_EQ(found(after(1, bumped), "W-CHECK-ROWS"), nullptr);
+}
+
+/// A joint counts the other way in the rows first ... last.
+SimulatedArm turned_in(int first, int last, int joint = 2) {
+  SimulatedArm out = simulated_arm(2, kRows, 0.5e-3);
+  for (int i = first; i <= last; ++i) out.measured.q(i, joint) *= -1.0;
+  return out;
+}
+
+std::vector<Problem> faults_of(const SimulatedArm& at) {
+  return row_fault_findings(at.cell, at.measured, at.rows,
+                            place_nominal(at.cell, at.measured, at.rows));
+}
+
+TEST(RowFaults, AreSaidEachWithItsOwnLinesAndAtMostThreeOfThem) {
+  SimulatedArm at = turned_in(50, 57);
+  EXPECT_EQ(faults_of(at).size(), 1U);
+  for (int i = 60; i < 66; ++i) at.measured.q(i, 1) *= -1.0;
+  const auto two = faults_of(at);
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_NE(two[0].message, two[1].message);
+  at.measured.p_M.middleRows(68, 5) *= 1e3;
+  at.measured.q.block(75, 0, 4, 6) *= kDegree;
+  EXPECT_EQ(faults_of(at).size(), 3U) << "of four";
+}
+
+TEST(RowFaults, OfAFewRowsOrOneOfTheRowsAreNotSaid) {
+  EXPECT_TRUE(faults_of(turned_in(60, 60)).empty());
+  SimulatedArm at = turned_in(20, 27);
+  EXPECT_FALSE(faults_of(at).empty());
+  const ArmState placed = place_nominal(at.cell, at.measured, at.rows);
+  const std::vector<int> few(at.rows.begin(), at.rows.begin() + 29);
+  EXPECT_TRUE(row_fault_findings(at.cell, at.measured, few, placed).empty());
+}
+
+TEST(RowFaults, AreNotSoughtInSeveralSetUpsNorWithOneAxisNorOutsideOfFiles) {
+  const SimulatedArm at = turned_in(50, 57);
+  EXPECT_EQ(faults_of(at).size(), 1U);
+  const ArmState placed = place_nominal(at.cell, at.measured, at.rows);
+  MeasurementFiles other = at.measured;
+  other.setup.assign(static_cast<std::size_t>(other.size()), 0);
+  EXPECT_TRUE(row_fault_findings(at.cell, other, at.rows, placed).empty());
+  other = at.measured;
+  other.tables.clear();
+  EXPECT_TRUE(row_fault_findings(at.cell, other, at.rows, placed).empty());
+  other = at.measured;
+  other.has_axis = {true, false, false};
+  EXPECT_TRUE(row_fault_findings(at.cell, other, at.rows, placed).empty());
+}
+
+TEST(RowFaults, AreNotSoughtWhereTheArmLeavesNothingToExplain) {
+  const SimulatedArm sound = simulated_arm(2, kRows, 0.5e-3);
+  EXPECT_TRUE(
+      row_fault_findings(sound.cell, sound.measured, sound.rows, fitted_state(sound)).empty());
 }
 
 }  // namespace
