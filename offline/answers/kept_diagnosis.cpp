@@ -96,6 +96,7 @@ void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("finding_after", found.finding_after);
   fields("text_after", found.text_after);
   fields("undecided", found.undecided);
+  fields("refused", found.refused);
   fields("floor", found.floor);
   fields("poses_fit", found.poses_fit);
   fields("poses_held", found.poses_held);
