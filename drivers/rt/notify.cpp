@@ -9,18 +9,22 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <tuple>
 
 namespace plumb::drivers::rt {
 namespace {
 
+constexpr std::int64_t kNanoseconds = 1000;  // in a microsecond
+
+/// What the manager says in whole microseconds; 0 if it says nothing, or what is no time.
 std::int64_t watchdog_us() {
   const char* const text = std::getenv("WATCHDOG_USEC");
   if (text == nullptr) return 0;
   std::int64_t out = 0;
   std::from_chars(text, text + std::strlen(text), out);
-  return out > 0 ? out : 0;
+  return out > 0 && out <= std::numeric_limits<std::int64_t>::max() / kNanoseconds ? out : 0;
 }
 
 int connected(std::string_view path) {
@@ -38,7 +42,7 @@ int connected(std::string_view path) {
 
 }  // namespace
 
-ServiceManager::ServiceManager() : watchdog_ns_(watchdog_us() * 1000 / 2) {
+ServiceManager::ServiceManager() : watchdog_ns_(watchdog_us() * kNanoseconds / 2) {
   if (const char* const path = std::getenv("NOTIFY_SOCKET")) fd_ = connected(path);
 }
 
