@@ -113,6 +113,12 @@ std::string sums_text(const fs::path& folder) {
   return read_regular_file(folder / kSumsFile, kMostBytes);
 }
 
+std::map<std::string, std::string> listed_sums(const fs::path& folder, const std::string& text) {
+  std::map<std::string, std::string> out;
+  for (SummedFile& file : parse_sums(folder, text)) out[file.name] = std::move(file.sha256);
+  return out;
+}
+
 std::vector<SummedFile> read_sums(const fs::path& folder, const std::string& text) {
   std::vector<SummedFile> out = parse_sums(folder, text);
   for (SummedFile& file : out) compare(folder, file);

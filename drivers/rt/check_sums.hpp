@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct SummedFile {
 
 /// The text of SHA256SUMS. Throws Failure (kInput, E-RT-SUMS) if it is missing.
 std::string sums_text(const std::filesystem::path& folder);
+
+/// The sums that `text`, the content of SHA256SUMS, lists, by the names of their files, which are
+/// not read. Throws as read_sums does.
+std::map<std::string, std::string> listed_sums(const std::filesystem::path& folder,
+                                               const std::string& text);
 
 /// Compares every file that `text`, the content of SHA256SUMS, lists. Throws Failure (kInput,
 /// E-RT-SUMS) if it is empty or has a line that is none of sha256sum. Slow.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
@@ -22,15 +21,16 @@ toml::table parsed_settings(const fs::path& folder) {
   return TomlSource(display_name(file), read_regular_file(file, kMostCellBytes), "E-RT").parse();
 }
 
-std::string model_name(const toml::table& settings) {
-  return settings["model"]["file"].value_or(std::string("robot.plumb"));
+/// As a list of check sums names it, however rt.toml spells it.
+std::string model_name(const fs::path& folder, const toml::table& settings) {
+  return listed_name(folder,
+                     folder / settings["model"]["file"].value_or(std::string("robot.plumb")));
 }
 
 /// Names and sums of the files that decide, beside rt.toml and the model.
 std::map<std::string, std::string> other_files(const fs::path& folder, const std::string& model) {
   std::map<std::string, std::string> out;
-  std::istringstream lines(sums_text(folder));
-  for (std::string sum, name; lines >> sum >> std::ws && std::getline(lines, name);) {
+  for (const auto& [name, sum] : listed_sums(folder, sums_text(folder))) {
     const fs::path path = name;
     const bool for_people = path.extension() == ".dbc" || path.extension() == ".md";
     if (name != "rt.toml" && name != model && !for_people) out[name] = sum;
@@ -65,8 +65,8 @@ std::vector<std::string> restart_reasons(const fs::path& running, const fs::path
   std::vector<std::string> out;
   const toml::table a = parsed_settings(running), b = parsed_settings(next);
   compare_tables(a, b, "", out);
-  const auto files = other_files(running, model_name(a));
-  auto others = other_files(next, model_name(b));
+  const auto files = other_files(running, model_name(running, a));
+  auto others = other_files(next, model_name(next, b));
   for (const auto& [name, sum] : files) {
     const auto at = others.find(name);
     if (at == others.end() || at->second != sum) out.push_back(name);
