@@ -30,6 +30,17 @@ std::optional<Json> answer_of(const Place& place, const std::string& request, in
   return std::nullopt;
 }
 
+/// What stands under a key; null if there is no such key, or `json` is no object.
+Json member_of(const Json& json, const char* key) {
+  return json.is_object() && json.contains(key) ? json[key] : Json();
+}
+
+std::string text_or(const Json& json, const std::string& absent) {
+  return json.is_string() ? json.get<std::string>() : absent;
+}
+
+bool is_text_or_absent(const Json& json) { return json.is_string() || json.is_null(); }
+
 [[noreturn]] void refuse_silence(const Place& place) {
   throw Failure(
       Exit::kEnvironment,
@@ -50,23 +61,30 @@ std::optional<RunningPlace> find_running(const Place& place) {
     if (FolderLock(place.folder).state() != FolderLock::State::kBusy) return std::nullopt;
     json = answer_of(place, "status", kStatus_ms);
   }
-  if (!json || !json->value("ok", false)) refuse_silence(place);
-  RunningPlace out;
-  const Json& result = (*json)["result"];
-  if (result.contains("install")) out.version = result["install"].value("version", "");
-  if (result.contains("link")) out.packing = result["link"].value("packing", "");
-  return out;
+  if (!json || member_of(*json, "ok") != true) refuse_silence(place);
+  const Json result = member_of(*json, "result");
+  const Json install = member_of(result, "install"), link = member_of(result, "link");
+  const Json version = member_of(install, "version"), packing = member_of(link, "packing");
+  const bool sound = result.is_object() && (install.is_object() || install.is_null()) &&
+                     (link.is_object() || link.is_null()) && is_text_or_absent(version) &&
+                     is_text_or_absent(packing);
+  if (!sound) refuse_silence(place);
+  return RunningPlace{.version = text_or(version, ""), .packing = text_or(packing, "")};
 }
 
 double ask_swap(const Place& place, const SwapRequest& request) {
   const auto json = answer_of(place, swap_line(request), kSwapAnswer_ms);
   if (!json) refuse_silence(place);
-  if (json->value("ok", false)) return (*json)["result"].value("change_mm", 0.0);
-  const Json error = json->value("error", Json::object());
-  throw Failure(Exit::kInput, {.code = error.value("code", "E-RT-SWAP"),
-                               .message = error.value("message", "the running plumb-rt refuses it"),
-                               .help = "nothing was changed; plumb-rt status " +
-                                       shell_word(display_name(place.folder))});
+  if (member_of(*json, "ok") == true) {
+    const Json change_mm = member_of(member_of(*json, "result"), "change_mm");
+    return change_mm.is_number() ? change_mm.get<double>() : 0.0;
+  }
+  const Json error = member_of(*json, "error");
+  throw Failure(
+      Exit::kInput,
+      {.code = text_or(member_of(error, "code"), "E-RT-SWAP"),
+       .message = text_or(member_of(error, "message"), "the running plumb-rt refuses it"),
+       .help = "nothing was changed; plumb-rt status " + shell_word(display_name(place.folder))});
 }
 
 }  // namespace plumb::drivers::rt
