@@ -12,7 +12,10 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kMostOfTheError = 0.3;  // least share of the squared error of a cause
-constexpr double kClear_ln_p = -6.9;     // by chance once in a thousand
+/// Largest share of a real jump. It is 1 or less where a part moves the points alike in the poses
+/// before and behind the jump; those of real series differ.
+constexpr double kAllOfTheError = 2.0;
+constexpr double kClear_ln_p = -6.9;  // by chance once in a thousand
 constexpr double kOnePayload_kg = 1e-6;
 constexpr int kRowsOfOnePayload = 4;
 constexpr int kRowsAround = 2;  // a small jump may be found a row or two too early or too late
@@ -48,7 +51,9 @@ double share_of_error(const StepFound& step, double rms_m, double rows) {
 
 bool is_clear(const StepFound& step) { return step.ln_p <= kClear_ln_p; }
 
-bool is_cause(double share) { return share >= kMostOfTheError; }
+bool is_possible(double share) { return share <= kAllOfTheError; }
+
+bool is_cause(double share) { return share >= kMostOfTheError && is_possible(share); }
 
 std::optional<StepFound> main_jump(const ArmState& fitted, const Measurements& measured,
                                    const std::vector<int>& rows) {

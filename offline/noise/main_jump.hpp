@@ -17,8 +17,12 @@ double share_of_error(const StepFound& step, double rms_m, double rows);
 /// Whether chance makes such a jump less than once in a thousand.
 bool is_clear(const StepFound& step);
 
-/// Whether a jump with this share of the squared error counts as the cause of the error. A smaller
-/// jump may be another missing effect that shows where the series comes to other poses.
+/// Whether there is so much to explain. A jump that would cause more than the whole squared error
+/// is none: the poses of one side hardly show that part, so that its size is a guess.
+bool is_possible(double share);
+
+/// Whether a possible jump with this share of the squared error counts as the cause of the error. A
+/// smaller jump may be another missing effect that shows where the series comes to other poses.
 bool is_cause(double share);
 
 /// The jump with the largest share of the residual of `fitted` on these rows, among those that are

@@ -124,6 +124,7 @@ std::string compare_verdict(const Cell& cell, const Measurements& measured,
   if (steps.empty() || !is_clear(steps.front())) return error;
   const double share = share_of_error(steps.front(), comparison.stats.rms,
                                       static_cast<double>(measured.pose.size()));
+  if (!is_possible(share)) return error;
   if (!is_cause(share))
     return fmt::format(
         "{}\nPossibly something moved too: {}. It would cause at most {:.0f} % of the squared "
