@@ -664,6 +664,14 @@ constexpr Explanation kCodes[] = {
     {"W-COMPILE-TOLERANCE",
      "The model was compiled, but its held-out error does not keep [cell] tolerance_mm: at 95 % of "
      "the poses, or three times over at the worst. With --gate nothing would have been written."},
+    {"N-FIT-REFLECTOR",
+     "The poses do not tell where the reflector sits on the tool: if the tool is vertical in all "
+     "of "
+     "them, a reflector that sits lower and a tracker that stands higher look alike. So that "
+     "number "
+     "is taken from the earlier run. Another value would move the frame of the tracker and no "
+     "predicted point in such poses; if the reflector sits elsewhere now, the heights of the base "
+     "in this run are off by as much."},
     {"N-FIT-LEFT",
      "The readings of --data are another measurement than that of cell.toml. What happened to the "
      "tracker, its base or its reflector then (drift, step, tracker) is not taken over; if the "

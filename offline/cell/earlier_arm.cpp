@@ -156,6 +156,7 @@ EarlierArm earlier_arm(const fs::path& place) {
     const Eigen::MatrixXd all = unpacked(calibration.at("covariance"), place_in_run);
     out.covariance = all(kept, kept);
     out.left_m = left_of(run);
+    calibration.at("target").at("p").get_to(out.target_T);
   } catch (const nlohmann::json::exception&) {
     refuse(file, "is no run of plumb fit, or was cut off");
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <unordered_set>
@@ -26,9 +27,10 @@ struct EarlierArm {
   bool modified = false;      // rows in Craig's convention
   std::vector<Row> rows;
   std::vector<Number> numbers;
-  Eigen::MatrixXd covariance;       // of these numbers, SI
-  double left_m = 0.0;              // RMS of a coordinate that the run leaves at held-out poses
-  std::vector<std::string> inputs;  // check sums of all measurement files that it goes back to
+  Eigen::MatrixXd covariance;        // of these numbers, SI
+  std::array<double, 3> target_T{};  // where its reflector sat in the frame of the tool [m]
+  double left_m = 0.0;               // RMS of a coordinate that the run leaves at held-out poses
+  std::vector<std::string> inputs;   // check sums of all measurement files that it goes back to
   std::unordered_set<std::string> readings;  // their digests, as far as the runs are still there
   std::string check_sum;                     // of run.json
 };

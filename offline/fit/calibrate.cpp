@@ -448,9 +448,17 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   }
   std::vector<Problem> remarks;
   CoarseFit coarse = coarse_from_any(even, starts, candidates, remarks);
+  const auto open = reflector_left_open(data, unknown, coarse.subset.held);
+  if (!open.empty()) {
+    for (auto& state : starts) state = with_reflector_of(*cell.fit.earlier, state, open);
+    std::erase_if(candidates, [&](const Parameter& p) { return holds(open, p.name); });
+    remarks = {reflector_as_earlier(*cell.fit.earlier, open)};
+    coarse = coarse_from_any(even, starts, candidates, remarks);
+  }
   check_placed_by_poses(data, unknown, coarse.subset.held);
   Calibration out = refined(cell, data, std::move(coarse), candidates);
   out.held.insert(out.held.end(), unknown.redundant.begin(), unknown.redundant.end());
+  for (const auto& p : open) out.held.push_back(p.name);
   check_same_arm(out.estimates);
   warn_of_far_parameters(out.estimates, remarks);
   warn_of_impossible_effects(out, remarks);

@@ -90,6 +90,9 @@ inline constexpr double kSameNominal = 1e-9;
 inline constexpr double kSeenShare = 0.1;
 /// At most one in so many readings is taken out because it contradicts the earlier arm. chosen.
 inline constexpr std::size_t kOneOddOf = 10;
+/// Different poses from which on it is their kind, and not their number, that leaves open where the
+/// reflector is. data: 24 coordinates for nine numbers; contract (E-FIT-FEW).
+inline constexpr std::size_t kFewestPlacing = 8;
 
 // Held-out poses.
 

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "arm/arm_change.hpp"
 #include "cell/earlier_arm.hpp"
 #include "fit/constants.hpp"
 #include "program/counted_words.hpp"
+#include "program/file.hpp"
 #include "solve/imagined_poses.hpp"
 
 namespace plumb::offline {
@@ -15,9 +18,24 @@ namespace {
 
 constexpr Identifiability kToldApart{.min_independent_share = kIndependence};
 
+bool is_among(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 bool knows(const EarlierArm& earlier, const Parameter& p) {
   return std::any_of(earlier.numbers.begin(), earlier.numbers.end(),
                      [&](const auto& n) { return n.name == p.name; });
+}
+
+std::size_t different_poses(const FitData& data) {
+  std::set<int> poses;
+  for (const int row : data.rows)
+    poses.insert(data.measured->replicate_group[static_cast<std::size_t>(row)]);
+  return poses.size();
+}
+
+double value_in(const EarlierArm& earlier, const Parameter& p) {
+  return earlier.target_T[static_cast<std::size_t>(p.component)];
 }
 
 }  // namespace
@@ -49,11 +67,42 @@ UnknownNumbers unknown_numbers(const EarlierArm& earlier, const Cell& cell, cons
   return out;
 }
 
+std::vector<Parameter> reflector_left_open(const FitData& data, const UnknownNumbers& unknown,
+                                           const std::vector<std::string>& held) {
+  std::vector<Parameter> out;
+  if (different_poses(data) < kFewestPlacing) return out;
+  for (const auto& p : unknown.candidates)
+    if (p.kind == Parameter::Kind::kTarget && is_among(p.name, unknown.placing) &&
+        is_among(p.name, held))
+      out.push_back(p);
+  return out;
+}
+
+ArmState with_reflector_of(const EarlierArm& earlier, const ArmState& state,
+                           const std::vector<Parameter>& open) {
+  Eigen::VectorXd change(static_cast<Eigen::Index>(open.size()));
+  for (std::size_t i = 0; i < open.size(); ++i)
+    change(static_cast<Eigen::Index>(i)) = value_in(earlier, open[i]) - value_of(state, open[i]);
+  return moved(state, open, change);
+}
+
+Problem reflector_as_earlier(const EarlierArm& earlier, const std::vector<Parameter>& open) {
+  std::vector<std::string> held;
+  for (const auto& p : open)
+    held.push_back(fmt::format("{} at {:.3f} mm", p.name, value_in(earlier, p) * 1e3));
+  return {.severity = Severity::kNote,
+          .code = "N-FIT-REFLECTOR",
+          .message = fmt::format("these poses do not tell where the reflector sits on the tool; "
+                                 "held as in {}: {}",
+                                 display_name(earlier.run), fmt::join(held, ", ")),
+          .help = "to know it, measure poses that lean the tool: plumb plan --n 12"};
+}
+
 void check_placed_by_poses(const FitData& data, const UnknownNumbers& unknown,
                            const std::vector<std::string>& held) {
   std::vector<std::string> open;
   for (const auto& name : unknown.placing)
-    if (std::find(held.begin(), held.end(), name) != held.end()) open.push_back(name);
+    if (is_among(name, held)) open.push_back(name);
   if (open.empty()) return;
   throw Failure(Exit::kNumbersSayNo,
                 {.code = "E-FIT-FEW",
@@ -61,7 +110,8 @@ void check_placed_by_poses(const FitData& data, const UnknownNumbers& unknown,
                                         counted_words(static_cast<long long>(data.rows.size()),
                                                       "reading does", "readings do"),
                                         fmt::join(open, ", ")),
-                 .help = "measure at least 8 different poses: plumb plan --n 12"});
+                 .help = fmt::format("measure at least {} different poses: plumb plan --n 12",
+                                     kFewestPlacing)});
 }
 
 }  // namespace plumb::offline

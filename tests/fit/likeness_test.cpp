@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "arm/arm_change.hpp"
 #include "arm/predicted_points.hpp"
@@ -64,6 +65,8 @@ std::shared_ptr<const EarlierArm> earlier(const Calibration& c) {
     out->rows.push_back(
         {row.name, row.type == format::JointType::kPrismatic, row.theta, row.d, row.a, row.alpha});
   out->left_m = kNoise_m;
+  out->modified = c.state.arm.calibrated.convention == format::Convention::kModified;
+  for (std::size_t k = 0; k < 3; ++k) out->target_T[k] = c.state.X_TG.p[k];
   return out;
 }
 
@@ -255,6 +258,66 @@ TEST(Likeness, StatesItsUncertaintyHonestly) {
     }
   EXPECT_GT(inside, 0.88 * all);
   EXPECT_LT(inside, 1.00 * all);
+}
+
+/// An arm with the usual wrist, whose second joint has an eccentric encoder.
+Cell arm_with_usual_wrist() {
+  Cell cell = random_cell(1, 6, format::Convention::kModified, ArmKind::kRevolute);
+  cell.measurement.sigma_m = kNoise_m;
+  constexpr double kRight = M_PI / 2.0;
+  constexpr double kRows[6][4] = {{0.0, 0.0, 0.6, 0.0},     {-kRight, 0.2, 0.0, -kRight},
+                                  {0.0, 0.9, 0.0, kRight},  {kRight, 0.0, 0.8, 0.0},
+                                  {-kRight, 0.0, 0.0, 0.0}, {kRight, 0.0, 0.2, 0.0}};
+  for (std::size_t j = 0; j < 6; ++j) {
+    auto& row = cell.nominal.joints[j];
+    row.alpha = kRows[j][0], row.a = kRows[j][1], row.d = kRows[j][2], row.theta = kRows[j][3];
+    row.q_min = -2.0, row.q_max = 2.0;
+  }
+  cell.effects.push_back(
+      {.name = "encoder_eccentricity", .joints = {1}, .options = {}, .place = {}});
+  return cell;
+}
+
+/// Poses of it in which the tool points down.
+RowsN with_vertical_tool(const Cell& cell, int poses) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> within(-2.0, 2.0);
+  RowsN out(poses, cell.joints());
+  for (Eigen::Index i = 0; i < poses; ++i) {
+    do {
+      for (Eigen::Index j = 0; j < out.cols(); ++j) out(i, j) = within(random);
+      out(i, 3) = 0.0;
+      out(i, 4) = M_PI / 2.0 - out(i, 1) - out(i, 2);
+    } while (std::abs(out(i, 4)) > 2.0);
+  }
+  return out;
+}
+
+TEST(Likeness, WhereTheReflectorSitsIsTakenOverIfThePosesCannotTell) {
+  const Cell cell = arm_with_usual_wrist();
+  SimulationPlan plan;
+  plan.poses = 120;
+  plan.noise_m = kNoise_m;
+  plan.truth.seed = 4;
+  plan.truth.geometry_m = plan.truth.geometry_rad = 0.3e-3;
+  plan.truth.effects = {"encoder_eccentricity=100urad:J2"};
+  plan.truth.target_T = {0.03, -0.02, 0.15};
+  const auto before = simulate(cell, plan);
+  const auto reference = calibrate(cell, before.measured, first(120));
+  plan.seed = 2;
+  plan.q = with_vertical_tool(cell, 120);
+  const auto later = simulate(cell, plan);
+  Cell with = cell;
+  with.fit.earlier = earlier(reference);
+  const auto found = calibrate(with, later.measured, first(80));
+  EXPECT_EQ(std::count(found.held.begin(), found.held.end(), "target.z"), 1);
+  EXPECT_EQ(found.state.X_TG.p[2], reference.state.X_TG.p[2]);
+  EXPECT_EQ(std::count_if(found.remarks.begin(), found.remarks.end(),
+                          [](const Problem& p) { return p.code == "N-FIT-REFLECTOR"; }),
+            1);
+  EXPECT_LT(error_of(found, later, 80), kNoise_m);
+  // Of too few poses it is their number that leaves it open.
+  EXPECT_THROW(calibrate(with, later.measured, first(7)), Failure);
 }
 
 TEST(Likeness, AnotherModelIsRefused) {
