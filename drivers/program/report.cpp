@@ -60,7 +60,8 @@ std::vector<Verdict> verdicts_of(const Outcome& outcome) {
   std::vector<Verdict> out = outcome.verdicts;
   const Json& result = outcome.result;
   if (result.is_object() && result.contains("verdict_class"))
-    out.push_back({result.value("verdict", ""), result.value("verdict_class", "")});
+    out.push_back({result.value("verdict_text", result.value("verdict", "")),
+                   result.value("verdict_class", "")});
   for (Verdict& verdict : out) verdict.sentence = printable_text(verdict.sentence);
   return out;
 }

@@ -32,10 +32,13 @@ constexpr WordColour kActions[] = {{"Next:", kNote}};
 constexpr WordColour kMessages[] = {{"error", kError}, {"warning", kWarning}, {"note", kNote}};
 constexpr WordColour kClasses[] = {{"good", kGood}, {"partly", kWarning}, {"bad", kError}};
 
+/// The line may have been broken within the words.
 std::string coloured(const std::string& line, std::span<const WordColour> table) {
+  std::string whole = line;
+  std::replace(whole.begin(), whole.end(), '\n', ' ');
   for (const auto& [words, colour] : table)
-    if (line.starts_with(words))
-      return std::string(colour) + std::string(words) + std::string(kPlainAgain) +
+    if (whole.starts_with(words))
+      return std::string(colour) + line.substr(0, words.size()) + std::string(kPlainAgain) +
              line.substr(words.size());
   return line;
 }

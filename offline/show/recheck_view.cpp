@@ -68,10 +68,15 @@ std::string poses_words(const Recheck& found) {
                                        : fmt::format("{} readings of {}", found.readings, poses);
 }
 
+/// Whether the calibration kept the tolerance when it was made, as far as that is known.
+bool kept_tolerance(const Cell& cell, const Recheck& found) {
+  return found.then.n == 0 || keeps(found.then, cell.tolerance_m);
+}
+
 /// "true" means as good as it was, which need not be good enough.
 std::string true_sentence(const Cell& cell, const Recheck& found, const Run& run) {
   const std::string head =
-      found.then.n == 0 || keeps(found.then, cell.tolerance_m)
+      kept_tolerance(cell, found)
           ? "Still true:"
           : fmt::format("Nothing has changed, but run {} never kept the tolerance of {} mm:",
                         run.number, mm(cell.tolerance_m));
@@ -237,9 +242,16 @@ std::string recheck_sentence(const Cell& cell, const Recheck& found, const Run& 
   return undecidable_sentence(cell, found, run);
 }
 
+const char* class_of(const Cell& cell, const Recheck& found) {
+  if (found.verdict == Recheck::Verdict::kChanged) return name_of(Grade::kBad);
+  const bool good = found.verdict == Recheck::Verdict::kTrue && kept_tolerance(cell, found);
+  return name_of(good ? Grade::kGood : Grade::kPartly);
+}
+
 Json recheck_json(const Cell& cell, const Recheck& found, const Run& run) {
   Json out{{"verdict", name_of(found.verdict)},
            {"verdict_text", recheck_sentence(cell, found, run)},
+           {"verdict_class", class_of(cell, found)},
            {"readings", found.readings},
            {"poses", found.poses}};
   out["changed"] = Json::array();

@@ -12,6 +12,10 @@ namespace plumb::offline::show {
 /// The answer in one sentence. `run`: the run that was rechecked.
 std::string recheck_sentence(const Cell& cell, const recheck::Recheck& found, const Run& run);
 
+/// Its class: good if the calibration is still true, bad if the arm has changed, partly if these
+/// poses cannot tell, or if the calibration never kept the tolerance.
+const char* class_of(const Cell& cell, const recheck::Recheck& found);
+
 /// `result` of `plumb recheck` but for `run`.
 Json recheck_json(const Cell& cell, const recheck::Recheck& found, const Run& run);
 

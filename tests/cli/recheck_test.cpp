@@ -101,6 +101,7 @@ TEST_F(RecheckVerb, SaysThatNothingHasChanged) {
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const auto result = ran.json()["result"];
   EXPECT_EQ(result["verdict"], "true") << result["verdict_text"];
+  EXPECT_EQ(result["verdict_class"], "good");
   EXPECT_TRUE(result["changed"].empty());
   EXPECT_EQ(result["run"], runs + 1);
   EXPECT_EQ(result["parent_run"], runs);
@@ -119,6 +120,7 @@ TEST_F(RecheckVerb, FindsThatTheTrackerMoved) {
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const auto result = ran.json()["result"];
   EXPECT_EQ(result["verdict"], "changed");
+  EXPECT_EQ(result["verdict_class"], "bad");
   ASSERT_EQ(result["changed"].size(), 1U) << result["verdict_text"];
   EXPECT_EQ(result["changed"][0]["part"], "base");
   EXPECT_NEAR(result["changed"][0]["motion_rms_mm"], 0.393, 0.05);
@@ -180,6 +182,7 @@ TEST_F(RecheckVerb, OnePoseTenTimesCannotTellWhatMoved) {
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const auto result = ran.json()["result"];
   EXPECT_EQ(result["verdict"], "undecidable") << result["verdict_text"];
+  EXPECT_EQ(result["verdict_class"], "partly");
   EXPECT_EQ(result["poses"], 1);
   EXPECT_TRUE(result["run"].is_null());
 }

@@ -202,6 +202,11 @@ TEST(Screen, AVerdictHasTheColourOfItsClassAndNotOfItsWords) {
   EXPECT_EQ(seen(missing, "bad"), "Fitted.\n\x1b[1;31mGood\x1b[0m" + missing.substr(4));
   EXPECT_EQ(seen(missing, "unknown"), "Fitted.\n" + missing);
   EXPECT_EQ(laid_out("Good: words alone", colour), "Good: words alone");
+  const Screen narrow{.columns = 20, .ink = Screen::Ink::kColour, .is_terminal = true};
+  const Verdict longer[] = {
+      {"Something has changed, but what cannot be told: two joints", "partly"}};
+  EXPECT_EQ(laid_out(longer[0].sentence, narrow, longer),
+            "\x1b[1;33mSomething has\nchanged, but what\ncannot be told\x1b[0m: two\njoints");
 }
 
 }  // namespace
