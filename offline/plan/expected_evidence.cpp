@@ -28,9 +28,8 @@ double expected_square(const Rivals& rivals, const Eigen::MatrixXd& S, Eigen::In
 double quick_ln_bayes(const Eigen::MatrixXd& S, const Law::Variant& law, Eigen::Index y, double Q,
                       double lines, const EvidenceScale& scale) {
   const double ridge = scale.variance / (law.width * law.width);
-  Eigen::MatrixXd M = S.block(law.first, law.first, law.count, law.count);
-  M.diagonal().array() += ridge;
-  const Cholesky of_law(M);
+  const Cholesky of_law(
+      with_prior(S.block(law.first, law.first, law.count, law.count), law.width, scale.variance));
   const Eigen::VectorXd half = of_law.whitened(S.col(y).segment(law.first, law.count));
   return evidence_gain(of_law.ln_det() - static_cast<double>(law.count) * std::log(ridge),
                        scale.dof * scale.variance + Q, half.squaredNorm(), lines + scale.dof)

@@ -2,10 +2,11 @@
 #include "solve/series_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "arm/arm_change.hpp"
 #include "effects/registry.hpp"
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "solve/constants.hpp"
 #include "solve/descent.hpp"
@@ -155,12 +156,18 @@ class SeriesProblem {
   Eigen::VectorXd sigma_;
 };
 
+/// `sigma` of the last of so many numbers, of whose others nothing is known beforehand.
+Eigen::VectorXd behind_unknown(Eigen::Index numbers, const Eigen::VectorXd& sigma) {
+  Eigen::VectorXd out = Eigen::VectorXd::Constant(numbers, HUGE_VAL);
+  out.tail(sigma.size()) = sigma;
+  return out;
+}
+
 /// Normal equations with the prior of the series, scaled to a unit diagonal.
 class SeriesEquations {
  public:
   SeriesEquations(const Eigen::MatrixXd& information, const Eigen::VectorXd& sigma)
-      : matrix_(information) {
-    matrix_.diagonal().tail(sigma.size()) += sigma.cwiseAbs2().cwiseInverse();
+      : matrix_(with_prior(information, behind_unknown(information.rows(), sigma))) {
     scale_ = matrix_.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     matrix_ = (scale_.asDiagonal() * matrix_ * scale_.asDiagonal()).eval();
     damp(kSeriesDamping);

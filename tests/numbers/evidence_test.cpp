@@ -67,6 +67,10 @@ TEST(Evidence, APriorCountsAsOneReadingOfEachNumber) {
   with << X, Eigen::MatrixXd(sigma.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd own = X.transpose() * X;
   EXPECT_LT((with_prior(own, sigma) - with.transpose() * with).norm(), 1e-13);
+  // Of the first number nothing is known beforehand.
+  const Eigen::MatrixXd of_last = with_prior(own, Eigen::Vector2d(HUGE_VAL, sigma(1)));
+  EXPECT_EQ(of_last(0, 0), own(0, 0));
+  EXPECT_EQ(of_last(1, 1), with_prior(own, sigma)(1, 1));
   const double variance = 0.3;
   EXPECT_LT((with_prior(own, 2.0, variance) / variance -
              with_prior(own / variance, Eigen::VectorXd::Constant(2, 2.0)))
