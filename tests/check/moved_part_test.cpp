@@ -104,7 +104,7 @@ RowsN near_the_axis_then_anywhere(const Cell& cell, const ArmState& arm, int cou
 }
 
 TEST(MovedPart, AJumpThatWouldExplainMoreThanThereIsIsNone) {
-  for (const std::uint64_t seed : {1, 2}) {  // arms that reach the axis of J1
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Cell cell = random_cell(seed, 6, format::Convention::kStandard, ArmKind::kRevolute);
     ArmState arm;
     arm.arm.calibrated = cell.nominal;
