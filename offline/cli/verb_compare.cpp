@@ -66,7 +66,7 @@ void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
     outcome.text =
         show::runs_text(runs) + "\nRun " + std::to_string(last.number) + ": " + outcome.text;
   }
-  say_next(globals, show::after_comparison(comparison, answers), outcome);
+  say_next(globals, show::after_comparison(cell, comparison, last.fit, answers), outcome);
 }
 
 }  // namespace

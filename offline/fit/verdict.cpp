@@ -323,10 +323,10 @@ std::string next_step(const Fit& fit, double tolerance_m) {
     case Quality::kGoodButForSome:
       return "check   # are the readings that stand out wrong?";
     case Quality::kWorstPoseIsFar:
-      return "check   # is one of the readings wrong?";
+      return "compare   # which pose is it?";
     case Quality::kPerhapsLimitedByJoints:
     case Quality::kLimitedByNoise:
-      return "check   # how large are noise and rounding of the readings?";
+      return "compare   # did something move during the measurement?";
     case Quality::kBeyondSigmaTooLarge:
       return "check   # after sigma_um is corrected in cell.toml: what do the readings say of it?";
     case Quality::kTooFewPoses:

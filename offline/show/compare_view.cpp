@@ -136,11 +136,20 @@ std::string compare_verdict(const Cell& cell, const Measurements& measured,
 
 }  // namespace
 
-std::string after_comparison(const Comparison& comparison, const Answers& answers) {
+std::string after_comparison(const Cell& cell, const Comparison& comparison, const Fit& fit,
+                             const Answers& answers) {
   if (!comparison.changes.steps.empty() || !comparison.changes.drifts.empty())
     return "diagnose   # puts it into the model, if the readings support it";
-  return answers.next.starts_with("compare") ? "plan --n 30   # which poses to measure next"
-                                             : answers.next;
+  if (!answers.next.starts_with("compare")) return answers.next;
+  switch (quality(fit, cell.tolerance_m)) {
+    case Quality::kWorstPoseIsFar:
+      return "check   # is one of the readings wrong?";
+    case Quality::kLimitedByNoise:
+    case Quality::kPerhapsLimitedByJoints:
+      return "check   # how large are noise and rounding of the readings?";
+    default:
+      return "plan --n 30   # which poses to measure next";
+  }
 }
 
 std::string compare_text(const Cell& cell, const Measurements& measured,

@@ -24,7 +24,8 @@ std::string compare_text(const Cell& cell, const Measurements& measured,
 Table worst_table(const compare::Comparison& comparison);
 
 /// The command to type next, without `plumb`: that of the answers, unless something moved or they
-/// name `compare` itself.
-std::string after_comparison(const compare::Comparison& comparison, const Answers& answers);
+/// name `compare` itself, which has just been seen.
+std::string after_comparison(const Cell& cell, const compare::Comparison& comparison,
+                             const Fit& fit, const Answers& answers);
 
 }  // namespace plumb::offline::show

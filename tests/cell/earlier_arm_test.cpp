@@ -12,7 +12,8 @@ std::string run_of(const std::string& estimates, const std::string& covariance,
   return "{\"schema\": \"run/1\", \"inputs\": [{\"file\": \"m.csv\", \"sha256\": \"abc\"}]," +
          more +
          " \"held_out\": {\"n\": 20, \"rms_m\": 3e-4}, \"fit\": {\"n\": 20, \"rms_m\": 1e-4}," +
-         " \"calibration\": {\"chain\": {\"modified\": false, \"joints\": []}, \"estimates\": [" +
+         " \"calibration\": {\"target\": {\"p\": [0, 0, 0.1], \"q\": [1, 0, 0, 0]}, \"chain\": "
+         "{\"modified\": false, \"joints\": []}, \"estimates\": [" +
          estimates + "], \"covariance\": [" + covariance + "]}}";
 }
 
