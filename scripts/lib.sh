@@ -37,7 +37,7 @@ test_preset() {
   log=$(mktemp)
   ctest --preset "$@" 2>&1 | tee "$log" || true
   line=$(grep -E '% tests passed, [0-9]+ tests? failed out of [0-9]+' "$log" | tail -n 1)
-  mapfile -t -O "${#failures[@]}" failures < <(sed -nE 's/^\s*[0-9]+ - (\S+) \(.*/\1/p' "$log")
+  mapfile -t -O "${#failures[@]}" failures < <(sed -nE '/\(Skipped\)$/d; s/^\s*[0-9]+ - (\S+) \(.*/\1/p' "$log")
   mapfile -t -O "${#skipped[@]}" skipped < <(reasons_of_skips "build/$1/Testing/Temporary/LastTest.log")
   rm -f "$log"
   if [[ -z $line ]]; then
