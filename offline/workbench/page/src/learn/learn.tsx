@@ -58,7 +58,7 @@ export function LearnScreen() {
       </Card>
       <LastChange />
       {changed && !busy && <p class="note">The model has changed since this diagnosis. Learn again to see what is still missing.</p>}
-      {diagnosis && !busy ? <Blocks of={diagnosis.blocks} instead={{ candidates: <Causes diagnosis={diagnosis} /> }} />
+      {diagnosis && !busy ? <Blocks of={diagnosis.blocks} instead={{ ...(diagnosis.added.length === 0 && { steps: null }), candidates: <Causes diagnosis={diagnosis} /> }} />
         : !busy && <Empty>Press Learn. It takes a few seconds, some minutes with many poses; you may look at other screens meanwhile.</Empty>}
       <Formulas />
     </NeedsRun>
