@@ -44,7 +44,8 @@ std::string stamps_of(const std::vector<fs::path>& files) {
 std::string stamps_of_runs(const fs::path& folder) {
   std::string out;
   for (const auto& run : entries_of(folder / "runs"))
-    out += stamps_of({run / "run.json", run / "predictions.csv"});
+    out += stamps_of({run / "run.json", run / "predictions.csv", run / "noise_floor.json",
+                      run / "diagnosis.json"});
   return out;
 }
 

@@ -11,8 +11,8 @@ namespace plumb::offline::workbench {
 /// is none.
 std::string stamp_of(const std::filesystem::path& file);
 
-/// Stamps of several files, and of every run below `folder`/runs. A run that was replaced, cut off
-/// or deleted changes them. Cost: a system call a file.
+/// Stamps of several files, and of every run below `folder`/runs. A run that was replaced, cut off,
+/// deleted or diagnosed changes them. Cost: a system call a file.
 std::string stamps_of(const std::vector<std::filesystem::path>& files);
 std::string stamps_of_runs(const std::filesystem::path& folder);
 
