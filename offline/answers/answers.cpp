@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "answers/answers.hpp"
 
+#include "answers/action.hpp"
 #include "answers/after_diagnosis.hpp"
 #include "answers/kept_diagnosis.hpp"
 #include "compare/full_verdict.hpp"
@@ -13,26 +14,20 @@ namespace {
 
 using Class = Answers::Class;
 
-Class class_of(Quality quality) {
-  switch (quality) {
-    case Quality::kNotHeldOut:
-      return Class::kUndecidable;
-    case Quality::kGood:
-    case Quality::kGoodNoiseUnknown:
+/// What the grade, which is a colour, leaves open: whether it is the measurement that limits.
+bool is_limited(Quality quality) {
+  return quality == Quality::kLimitedByNoise || quality == Quality::kPerhapsLimitedByJoints;
+}
+
+Class class_of(const Fit& fit, double tolerance_m) {
+  switch (grade(fit, tolerance_m)) {
+    case Grade::kGood:
       return Class::kGood;
-    case Quality::kRepeatsDisagree:
-    case Quality::kSigmaTooLarge:
-    case Quality::kGoodNotComplete:
-    case Quality::kGoodButForSome:
-    case Quality::kWorstPoseIsFar:
-      return Class::kGoodBut;
-    case Quality::kLimitedByNoise:
-    case Quality::kPerhapsLimitedByJoints:
-      return Class::kLimited;
-    case Quality::kTooFewPoses:
-    case Quality::kBeyondSigmaTooLarge:
-    case Quality::kBeyond:
-    case Quality::kBeyondNoiseUnknown:
+    case Grade::kPartly:
+      return is_limited(quality(fit, tolerance_m)) ? Class::kLimited : Class::kGoodBut;
+    case Grade::kUnknown:
+      return Class::kUndecidable;
+    case Grade::kBad:
       break;
   }
   return Class::kNotGood;
@@ -43,14 +38,6 @@ Finding last_finding(const Diagnosis& d) { return d.finding_after.value_or(d.fin
 Answers::Why why_of(const Cell& cell, const Diagnosis* d) {
   if (d == nullptr) return {"Nobody has looked yet.", "not_looked"};
   return {d->finding_after ? d->text_after : d->text, name_of(certainty(cell, *d))};
-}
-
-/// "diagnose   # which effect is missing?" is a command and its reason.
-void put_next(const std::string& words, Json& out) {
-  const auto reason = words.find(" # ");
-  const std::string command = words.substr(0, reason);
-  out["next"] = "plumb " + command.substr(0, command.find_last_not_of(' ') + 1);
-  out["next_why"] = reason == std::string::npos ? "" : words.substr(reason + 3);
 }
 
 }  // namespace
@@ -76,8 +63,7 @@ const char* name_of(Answers::Class found) {
 Answers answers_of(const Cell& cell, const Measurements& measured, const Fit& fit,
                    const Diagnosis* diagnosis) {
   Answers out;
-  out.found = class_of(quality(fit, cell.tolerance_m));
-  if (out.found == Class::kGood && !fit.still.empty()) out.found = Class::kGoodBut;
+  out.found = class_of(fit, cell.tolerance_m);
   if (out.found == Class::kNotGood && diagnosis != nullptr &&
       last_finding(*diagnosis) == Finding::kMissing)
     out.found = Class::kMissing;
@@ -95,12 +81,13 @@ Answers answers_of(const Cell& cell, const Measurements& measured, const Run& ru
 }
 
 Json to_json(const Answers& answers) {
-  Json out{{"class", name_of(answers.found)},
-           {"sentence", answers.sentence},
-           {"where", answers.where},
-           {"why", {{"text", answers.why.text}, {"state", answers.why.state}}}};
-  put_next(answers.next, out);
-  return out;
+  const Action next = action_of(answers.next);
+  return {{"class", name_of(answers.found)},
+          {"sentence", answers.sentence},
+          {"where", answers.where},
+          {"why", {{"text", answers.why.text}, {"state", answers.why.state}}},
+          {"next", next.typed()},
+          {"next_why", next.why}};
 }
 
 }  // namespace plumb::offline

@@ -83,6 +83,12 @@ void answer(const Answers& answers, Outcome& outcome) {
   outcome.result["finding"] = to_json(answers);
 }
 
+void answer_of_before(const Cell& cell, const MeasurementFiles& measured,
+                      const std::optional<Run>& before, const Diagnosis& found, Outcome& outcome) {
+  if (!before) return show::put_null(outcome.result, "finding", "--dry-run fits nothing");
+  answer(answers_of(cell, measured, before->fit, &found), outcome);
+}
+
 /// False if the effects were refused.
 bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
                   const MeasurementFiles& measured, const Diagnosis& found, double before_m,
@@ -137,12 +143,11 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
   outcome.verdicts = {{found.text, show::class_of(found.finding)}};
   outcome.text = text_of(show::diagnosis_blocks(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst));
-  if (before)
-    answer(answers_of(cell, measured, before->fit, &found), outcome);
-  else
-    show::put_null(outcome.result, "finding", "--dry-run fits nothing");
-  if (options.apply && !keep_applied(options, cell, measured, found, before_m, outcome))
-    return say_next(globals, "compare   # where does the model fail?", outcome);
+  const bool kept =
+      !options.apply || keep_applied(options, cell, measured, found, before_m, outcome);
+  // That of a new model is there already.
+  if (!outcome.result.contains("finding")) answer_of_before(cell, measured, before, found, outcome);
+  if (!kept) return say_next(globals, "compare   # where does the model fail?", outcome);
   say_next(globals, after_diagnosis(cell, found), outcome);
 }
 

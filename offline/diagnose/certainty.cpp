@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/certainty.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <string>
 
 #include "cell/effects_edit.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/constants.hpp"
+#include "diagnose/few_digits.hpp"
 
 namespace plumb::offline {
 namespace {
-
-/// An error as it is shown [mm].
-std::string digits_mm(double m) { return fmt::format("{:.3f}", m * 1e3); }
 
 /// The candidate of that key, if the evidence hardly sets it apart from the first; or null.
 const Candidate* near_rival_of_key(const Cell& cell, const Diagnosis& d, const std::string& key) {

@@ -14,6 +14,7 @@
 #include "diagnose/effect_domain.hpp"
 #include "diagnose/effect_sentence.hpp"
 #include "diagnose/effect_words.hpp"
+#include "diagnose/few_digits.hpp"
 #include "diagnose/other_gravity.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 constexpr std::size_t kAlternativesShown = 3;
 
-std::string mm(double metres) { return fmt::format("{:.3f} mm", metres * 1e3); }
+std::string mm(double metres) { return digits_mm(metres) + " mm"; }
 
 /// What the joints scatter, as a sentence of its own; empty: nothing is seen of it.
 std::string repeatability_words(const Cell& cell, const Diagnosis& d) {
@@ -68,12 +69,10 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held, Held said
   return fmt::format("{}; {}{}", out, error, floor);
 }
 
-std::string digits(double m) { return fmt::format("{:.3f}", m * 1e3); }
-
 /// What an effect does to the error of poses that it has not seen: it need not fall.
 std::string fall_words(double before_m, double after_m) {
   if (falls(before_m, after_m))
-    return fmt::format("{} -> {} on unseen poses", digits(before_m), mm(after_m));
+    return fmt::format("{} -> {} on unseen poses", digits_mm(before_m), mm(after_m));
   return fmt::format("the error on unseen poses does not fall ({} -> {})", mm(before_m),
                      mm(after_m));
 }
@@ -207,7 +206,7 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
         "them it does not predict these better: {} -> {} on average, {} -> {} RMS, {}. More poses "
         "would "
         "tell.",
-        effect, digits(d.before.mean), mm(d.refused->mean), digits(d.before.rms),
+        effect, digits_mm(d.before.mean), mm(d.refused->mean), digits_mm(d.before.rms),
         mm(d.refused->rms), floor_words(d.floor));
   const bool undecidable = d.finding == Finding::kUndecidable;
   return fmt::format("{}: {}. Adding {}: {}, {}. {}",

@@ -142,8 +142,8 @@ void Html::blocks(const show::Blocks& blocks,
     if (const auto* const found = std::get_if<show::Table>(&block)) table(*found);
     if (const auto* const drawn = std::get_if<show::Figure>(&block)) put_figure(drawn->name);
     if (const auto* const note = std::get_if<show::Note>(&block)) paragraph(note->words);
-    if (const auto* const action = std::get_if<show::Action>(&block))
-      next += (next.empty() ? "plumb " : "\nplumb ") + action->command +
+    if (const auto* const action = std::get_if<Action>(&block))
+      next += (next.empty() ? "" : "\n") + action->typed() +
               (action->why.empty() ? "" : "   # " + action->why);
   }
   if (next.empty()) return;

@@ -31,11 +31,11 @@ void put_verdict(const ReportData& data, Html& html) {
 
 /// Where, why and what next stand on the first page: most readers see no other.
 void put_answers(const Answers& answers, Html& html) {
-  const show::Action next = show::action_of(answers.next);
-  html.facts({{"Where does it fail?", answers.where},
-              {"Why?", answers.why.text},
-              {"What next?", "plumb " + next.command +
-                                 (next.why.empty() ? "" : fmt::format(" ({})", next.why))}});
+  const Action next = action_of(answers.next);
+  html.facts(
+      {{"Where does it fail?", answers.where},
+       {"Why?", answers.why.text},
+       {"What next?", next.typed() + (next.why.empty() ? "" : fmt::format(" ({})", next.why))}});
 }
 
 /// Whether the file says the tolerance, outside comments.

@@ -36,18 +36,11 @@ struct JsonOf {
   Json operator()(const Figure& f) const { return {{"kind", "figure"}, {"name", f.name}}; }
   Json operator()(const Note& n) const { return {{"kind", "note"}, {"words", n.words}}; }
   Json operator()(const Action& a) const {
-    return {{"kind", "action"}, {"command", "plumb " + a.command}, {"why", a.why}};
+    return {{"kind", "action"}, {"command", a.typed()}, {"why", a.why}};
   }
 };
 
 }  // namespace
-
-Action action_of(const std::string& words) {
-  const auto reason = words.find(" # ");
-  const std::string command = words.substr(0, reason);
-  return {.command = command.substr(0, command.find_last_not_of(' ') + 1),
-          .why = reason == std::string::npos ? "" : words.substr(reason + 3)};
-}
 
 void append(Blocks& out, Blocks more) {
   for (Block& one : more) out.push_back(std::move(one));

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "answers/action.hpp"
 #include "show/json.hpp"
 #include "show/table.hpp"
 
@@ -29,16 +30,7 @@ struct Figure {
   std::string name;
 };
 
-/// A command to type next: the words that follow `plumb`. A terminal leaves it out, for only the
-/// verb knows its folder: see cli/next_line.hpp.
-struct Action {
-  std::string command;
-  std::string why;  // what it is for; may be empty
-};
-
-/// "diagnose   # which effect is missing?"
-Action action_of(const std::string& words);
-
+/// A terminal leaves an action out, for only the verb knows its folder: see cli/next_line.hpp.
 using Block = std::variant<Sentence, Table, Figure, Note, Action>;
 using Blocks = std::vector<Block>;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the server sends. docs/workbench.md describes it; the results of verbs are those of --json.
 
-import type { Blocks, Diagnosis, Finding, Statistics } from "./results";
+import type { Blocks, Diagnosis, Statistics } from "./results";
 
-export type { Blocks, Diagnosis, Finding, Statistics };
+export type { Blocks, Diagnosis, Statistics };
 export type Candidate = Diagnosis["candidates"][number];
 
 export interface Place { file: string; line: number; column: number }
