@@ -42,7 +42,7 @@ class Flood : public testing::Test {
         std::vector<std::string>{"run", folder.folder.string(), "--etc", machine.etc().string()},
         machine.root);
     EXPECT_TRUE(becomes([&] {
-      const auto now = status();
+      auto now = status();
       return now.is_object() && now["state"] == "active";
     }));
     for (const auto& path : drivers::rt::control_paths(folder.folder))
@@ -68,7 +68,7 @@ TEST_F(Flood, AHundredThousandRequestsOfAnotherUserAreRefusedByTheSystem) {
   struct stat found {};
   ASSERT_EQ(::stat(socket.c_str(), &found), 0);
   EXPECT_EQ(found.st_mode & 077, 0U);
-  const auto before = status();
+  auto before = status();
   const int result = in_child([&] {
     become_nobody();
     for (int i = 0; i < 100'000; ++i)
@@ -76,7 +76,7 @@ TEST_F(Flood, AHundredThousandRequestsOfAnotherUserAreRefusedByTheSystem) {
     return 0;
   });
   EXPECT_EQ(result, 0) << "each is refused with EACCES";
-  const auto after = status();
+  auto after = status();
   EXPECT_EQ(after["state"], before["state"]);
   EXPECT_EQ(after["counters"]["stalls"], 0);
   EXPECT_EQ(after["counters"]["faults"], 0);
@@ -108,7 +108,7 @@ TEST_F(Flood, GarbageOfTheOwnUserIsAnsweredOrDroppedAndTheCycleGoesOn) {
     ::close(fd);
   }
   EXPECT_TRUE(becomes([&] { return status().is_object(); })) << "it answers as ever";
-  const auto after = status();
+  auto after = status();
   EXPECT_EQ(after["counters"]["swaps"], 0);
   EXPECT_EQ(after["counters"]["faults"], 0);
   EXPECT_EQ(after["counters"]["stalls"], 0);
@@ -117,13 +117,13 @@ TEST_F(Flood, GarbageOfTheOwnUserIsAnsweredOrDroppedAndTheCycleGoesOn) {
 
 /// A mistyped name of a file is no reason to end the program that corrects a robot.
 TEST_F(Flood, AFileWhoseNameIsNoTextIsRefusedByNameAndTheCycleGoesOn) {
-  const auto answer = drivers::rt::ask(socket, "swap /tmp/no-\xff-text.plumb\n", 10'000);
+  const auto answer = drivers::rt::ask(socket, "swap /srv/no-\xff-text.plumb\n", 10'000);
   ASSERT_TRUE(answer);
   const auto said = nlohmann::json::parse(*answer, nullptr, false);
   ASSERT_TRUE(said.is_object()) << *answer;
   EXPECT_EQ(said["ok"], false);
   EXPECT_NE(said["error"]["message"].get<std::string>().find("-text.plumb"), std::string::npos);
-  const auto after = status();
+  auto after = status();
   ASSERT_TRUE(after.is_object()) << "it lives";
   EXPECT_EQ(after["state"], "active");
   EXPECT_EQ(after["counters"]["stalls"], 0);

@@ -138,7 +138,7 @@ TEST_F(Install, APlaceRunsItsCurrentVersionAndWritesNothingInIt) {
   ASSERT_EQ(rt({"run", to(), "--check"}).exit, 0);
   const RtRan ran = rt({"run", to(), "--json"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
-  const auto origin = ran.json()["result"]["install"];
+  auto origin = ran.json()["result"]["install"];
   EXPECT_EQ(origin["version"], id_of(first));
   EXPECT_EQ(origin["made"], kFirst);
   EXPECT_NE(origin["installed_by"].get<std::string>().find(drivers::rt::user_name(::getuid())),
@@ -322,7 +322,7 @@ TEST_F(Install, KilledWhileWhatRunsSwapsNothingIsLost) {
         machine.root);
     if (ran == KilledAt::kImpossible) GTEST_SKIP() << "this machine lets nobody trace";
     ASSERT_EQ(verify().exit, 0);
-    const auto origin = status()["install"];
+    auto origin = status()["install"];
     ASSERT_TRUE(origin["version"] == id_of(first) || origin["version"] == id_of(second));
     ASSERT_EQ(origin["current"], current());
     ASSERT_EQ(origin["restart_needed"], origin["version"] != current());

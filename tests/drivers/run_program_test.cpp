@@ -29,7 +29,7 @@ nlohmann::json status(const Deployed& folder) {
 }
 
 bool is_active(const Deployed& folder) {
-  const auto json = status(folder);
+  auto json = status(folder);
   return json.is_object() && json["result"].is_object() && json["result"]["state"] == "active";
 }
 
@@ -108,7 +108,7 @@ TEST(Run, ASecondSignalEndsAtOnceAndTheNextRunStartsAsEver) {
   write_long_targets(folder);
   RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
   const auto is = [&](const char* state, double more_than_um) {
-    const auto json = status(folder);
+    auto json = status(folder);
     return json.is_object() && json["ok"] == true && json["result"]["state"] == state &&
            json["result"]["correction"]["applied_um"] > more_than_um;
   };
@@ -172,7 +172,7 @@ TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
   EXPECT_NE(changed.err.find("E-RT-CHANGE"), std::string::npos) << changed.err;
   EXPECT_NE(changed.err.find("and 5.000 mm are allowed"), std::string::npos) << changed.err;
   EXPECT_EQ(status(folder)["result"]["counters"]["swaps"], 0);
-  const auto limits = status(folder)["result"]["limits"];
+  auto limits = status(folder)["result"]["limits"];
   EXPECT_NEAR(limits["correction_mm"]["model"].get<double>(), 3.0, 1e-9);
   EXPECT_NEAR(limits["correction_mm"]["ceiling"].get<double>(), 10.0, 1e-9);
   EXPECT_EQ(swap("better.plumb").exit, 0);
@@ -308,7 +308,7 @@ TEST(Run, AFullDiskMakesAPauseInTheRecordAndNothingElse) {
   });
   ASSERT_TRUE(becomes([&] { return has_event(folder, "record-paused", "File too large"); }));
   EXPECT_TRUE(becomes([&] { return is_active(folder); })) << "the run goes on";
-  const auto paused = status(folder)["result"];
+  auto paused = status(folder)["result"];
   EXPECT_NE(paused["record"]["failure"].get<std::string>().find("File too large"),
             std::string::npos)
       << paused["record"];
@@ -324,7 +324,7 @@ TEST(Run, AFullDiskMakesAPauseInTheRecordAndNothingElse) {
   EXPECT_EQ(run.wait().exit, 0);
   const RtRan replayed = replay(folder, {folder.folder.string()});
   EXPECT_EQ(replayed.exit, 0) << replayed.err;
-  const auto said = replayed.json()["result"];
+  auto said = replayed.json()["result"];
   EXPECT_GE(said["files"], 2);
   EXPECT_EQ(said["beginnings"], 2) << "the start, and where it went on";
   EXPECT_GT(said["cycles"], 200);

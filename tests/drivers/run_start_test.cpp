@@ -47,7 +47,7 @@ class ARunAfterAnother : public testing::Test {
     ASSERT_TRUE(comes(kShadow));
     std::this_thread::sleep_for(800ms);
     EXPECT_TRUE(controller.sees(kShadow));
-    const Json said = status();
+    Json said = status();
     EXPECT_EQ(said["lost"], Json({"acknowledge"}));
     EXPECT_NE(said["acknowledge"].get<std::string>().find(why), std::string::npos)
         << said["acknowledge"];
@@ -56,7 +56,7 @@ class ARunAfterAnother : public testing::Test {
   /// One of the fault, which the journal names, and which replays by itself.
   void expect_a_snapshot() const {
     std::vector<Json> made;
-    const Json events =
+    Json events =
         plumb_rt({"events", folder.folder.string(), "--json"}, folder.folder).json()["result"];
     for (const Json& event : events["events"])
       if (event["event"] == "snapshot" && event["reason"].get<std::string>().starts_with("fault"))
@@ -278,7 +278,7 @@ TEST_F(ARunAfterAnother, AStoppedRunGoesOnWithoutCorrectionAndIsNoSecondSenderTo
     EXPECT_FALSE(controller.sees(kFault));
     EXPECT_TRUE(comes(kActive));
   }
-  const Json said = status();
+  Json said = status();
   EXPECT_EQ(said["counters"]["faults"], 0);
   EXPECT_EQ(said["link"]["foreign_senders"], 0);
   EXPECT_GE(said["counters"]["stalls"], 2);
@@ -300,7 +300,7 @@ TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
     RtProgram run({"run", folder.folder.string()}, folder.folder);
     Json link;
     EXPECT_TRUE(becomes([&] {
-      const Json said =
+      Json said =
           plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json();
       link = said.is_object() && said["result"].is_object() ? said["result"]["link"] : Json();
       return link.is_object() && link["packing"] != "";

@@ -45,7 +45,7 @@ TEST_F(Signed, AFolderThatATrustedKeySignedRuns) {
   EXPECT_EQ(ran.err.find("unsigned"), std::string::npos) << ran.err;
   const RtRan played = machine.rt({"run", folder.folder.string(), "--json"});
   ASSERT_EQ(played.exit, 0) << played.err;
-  const auto origin = played.json()["result"]["install"];
+  auto origin = played.json()["result"]["install"];
   EXPECT_EQ(origin["signed_by"], "anna");
   EXPECT_EQ(origin["key_id"], key.public_key().id());
   EXPECT_EQ(origin["note"], "");
@@ -278,7 +278,7 @@ TEST_F(Signed, ASwapTakesOnlyAModelOfASignedFolder) {
   fs::remove(better.folder / "extra");
   const RtRan good = swap(better);
   EXPECT_EQ(good.exit, 0) << good.err;
-  const auto origin = ask({"status", folder.folder.string(), "--json"}).json()["result"]["install"];
+  auto origin = ask({"status", folder.folder.string(), "--json"}).json()["result"]["install"];
   EXPECT_EQ(origin["signed_by"], "anna");
   fs::rename(machine.keys() / "anna.pub", machine.keys() / "anna.revoked");
   EXPECT_NE(swap(folder).err.find("error[E-RT-REVOKED]"), std::string::npos)

@@ -29,12 +29,12 @@ TEST(ControlReply, IsOneLineWhateverItSaysAndSaysIt) {
 /// correction.
 TEST(ControlReply, BytesThatAreNoTextAreReplacedAndTheRestStays) {
   for (const std::string bytes : {"\xff", "\xc3", "\xed\xa0\x80", "\xf8\x88\x80\x80\x80"}) {
-    const std::string name = "/tmp/before" + bytes + "after.plumb";
+    const std::string name = "/srv/before" + bytes + "after.plumb";
     for (const std::string& line :
          {refusal("E-READ", name), reply({{"ok", true}, {"result", {{"file", name}}}})}) {
       const Json read = Json::parse(line, nullptr, false);
       ASSERT_TRUE(read.is_object()) << line;
-      EXPECT_NE(line.find("/tmp/before"), std::string::npos) << line;
+      EXPECT_NE(line.find("/srv/before"), std::string::npos) << line;
       EXPECT_NE(line.find("after.plumb"), std::string::npos) << line;
     }
   }
