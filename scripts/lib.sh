@@ -5,6 +5,7 @@ passed=0
 failed=0
 failures=()  # names of stages that failed, and of tests: said once more at the end
 skipped=()   # for each test that was skipped, why
+too_late=()  # gates for which there was no time left
 
 # stage NAME COMMAND...: runs the command and says how long it took.
 stage() {
@@ -17,8 +18,15 @@ stage() {
   return "$status"
 }
 
+# begins NAME: whether there is time to begin that gate. After PLUMB_BEGIN_UNTIL [s since 1970] none begins, so that a
+# slow machine ends with what it had time for; what it left out is said at the end and is no success.
+begins() {
+  (($(date +%s) < ${PLUMB_BEGIN_UNTIL:-9999999999})) || { too_late+=("$1"); return 1; }
+}
+
 # tally COMMAND...: a gate without CTest counts as one test.
 tally() {
+  begins "$1" || return 0
   if stage "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 }
 
@@ -59,6 +67,7 @@ reasons_of_skips() {
 # built_and_tested PRESET TARGETS [CTest arguments]: TARGETS, separated by blanks; all if there are none.
 built_and_tested() {
   local preset=$1 targets=()
+  begins "$preset ${2:-${*:3}}" || return 0
   if [[ -n $2 ]]; then
     read -ra targets <<< "$2"
     targets=(--target "${targets[@]}")
@@ -79,6 +88,7 @@ close() {
   ((${#failures[@]} == 0)) || printf 'FAILED: %s\n' "${failures[@]}"
   ((${#skipped[@]} == 0)) || echo "${#skipped[@]} tests skipped:" \
     "$(printf '%s\n' "${skipped[@]}" | sort | uniq -c | awk '{ n = $1; sub(/^ *[0-9]+ /, ""); printf "%s%d because \"%s\"", sep, n, $0; sep = ", " }')"
+  ((${#too_late[@]} == 0)) || printf 'NOT RUN, the time was up: %s\n' "${too_late[@]}"
   echo "$passed passed, $failed failed"
   ((status == 0)) || exit "$status"
   ((failed == 0 && passed > 0)) || exit 1

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 namespace plumb::tests {
 
@@ -32,6 +33,13 @@ inline long scaled(long count) {
   const char* scale = std::getenv("PLUMB_TEST_SCALE");
   if (scale == nullptr) return count;
   return std::max(1L, static_cast<long>(static_cast<double>(count) * std::atof(scale)));
+}
+
+/// The first `count` of the cases, multiplied as above: at 100 all of them.
+template <typename T>
+std::vector<T> first_of(std::vector<T> cases, long count) {
+  cases.resize(std::min(cases.size(), static_cast<std::size_t>(scaled(count))));
+  return cases;
 }
 
 }  // namespace plumb::tests

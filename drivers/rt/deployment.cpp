@@ -53,7 +53,7 @@ void refuse_unlisted(const std::filesystem::path& folder, const std::string& sum
 std::string version_in(const std::filesystem::path& folder, const std::filesystem::path& place) {
   std::error_code error;
   const auto real = std::filesystem::canonical(folder, error);
-  const auto versions = std::filesystem::canonical(Place{place}.versions(), error);
+  const auto versions = std::filesystem::canonical(InstallPlace{place}.versions(), error);
   const std::string name = real.filename().string();
   return !error && real.parent_path() == versions && is_version_id(name) ? name : "";
 }

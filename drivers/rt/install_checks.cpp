@@ -39,7 +39,7 @@ void refuse_older(const InstallRequest& request, const std::string& made, const 
   const std::string& newest = before.history.newest_made;
   if (request.older == InstallRequest::Older::kAllowed || id == before.current || made >= newest)
     return;
-  const Place& place = request.change.place;
+  const InstallPlace& place = request.change.place;
   const auto ids = place.ids();
   const bool there = std::find(ids.begin(), ids.end(), id) != ids.end();
   const std::string when =
@@ -61,7 +61,7 @@ void refuse_older(const InstallRequest& request, const std::string& made, const 
 
 void refuse_other_robot(const InstallRequest& request, const Deployment& next,
                         const PlaceBefore& before) {
-  const Place& place = request.change.place;
+  const InstallPlace& place = request.change.place;
   if (before.current.empty()) return;
   std::string serial;
   try {

@@ -100,7 +100,7 @@ const HistoryLine* History::last_of(const std::string& version) const {
   return nullptr;
 }
 
-History read_history(const Place& place, const std::string& current) {
+History read_history(const InstallPlace& place, const std::string& current) {
   History out;
   for (HistoryLine& line : read_lines(place.history(), out.damaged)) {
     if (line.what != "refused")
@@ -120,7 +120,7 @@ History read_history(const Place& place, const std::string& current) {
   return out;
 }
 
-void append_history(const Place& place, const HistoryLine& line) {
+void append_history(const InstallPlace& place, const HistoryLine& line) {
   append_synced(place.history(),
                 to_json(line).dump(-1, ' ', false, Json::error_handler_t::replace));
   sync_folder(place.folder);

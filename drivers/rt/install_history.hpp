@@ -48,10 +48,10 @@ struct History {
 
 /// `current`: the version that is current, or empty. A file that is missing is an empty history.
 /// Of a file of more than 16 MB only the end is read. Slow.
-History read_history(const Place& place, const std::string& current);
+History read_history(const InstallPlace& place, const std::string& current);
 
 /// Appends a line and waits for the disk. Throws Failure (kEnvironment, E-WRITE).
-void append_history(const Place& place, const HistoryLine& line);
+void append_history(const InstallPlace& place, const HistoryLine& line);
 
 /// A line with time, user and host of now; of a user who became root by sudo also who that was.
 HistoryLine history_line(std::string what, std::string version, std::string previous);

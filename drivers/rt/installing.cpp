@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string to_place(const Place& place) {
+std::string to_place(const InstallPlace& place) {
   return "--to " + shell_word(fs::absolute(place.folder).lexically_normal().string());
 }
 
 /// A `current` that is broken does not keep from installing: the next one mends it.
-PlaceBefore look_at(const Place& place, Outcome& outcome) {
+PlaceBefore look_at(const InstallPlace& place, Outcome& outcome) {
   PlaceBefore out;
   try {
     out.current = current_version(place).value_or("");
@@ -61,7 +61,7 @@ void say_origin(const Origin& origin, const SigningRules& rules, const fs::path&
 }  // namespace
 
 Changed install(const InstallRequest& request, Outcome& outcome) {
-  const Place& place = request.change.place;
+  const InstallPlace& place = request.change.place;
   if (is_place(request.from))
     throw Failure(
         Exit::kInput,
@@ -108,7 +108,7 @@ Changed install(const InstallRequest& request, Outcome& outcome) {
 }
 
 Changed roll_back(const ChangeRequest& request, const std::string& version, Outcome& outcome) {
-  const Place& place = request.place;
+  const InstallPlace& place = request.place;
   const SigningRules rules = read_signing_rules(request.etc);
   const Writing writing;
   const VersionStore store(place, VersionStore::Make::kNo);

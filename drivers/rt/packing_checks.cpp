@@ -8,7 +8,7 @@ namespace plumb::drivers::rt {
 namespace {
 
 /// Empty also if it is not known: nobody runs the place, or he does not answer to this user.
-std::string packing_in(const Place& place) {
+std::string packing_in(const InstallPlace& place) {
   try {
     const auto running = find_running(place);
     return running ? running->packing : "";

@@ -56,7 +56,7 @@ bool is_version_id(const std::string& text) {
          text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-std::vector<std::string> Place::ids() const {
+std::vector<std::string> InstallPlace::ids() const {
   std::vector<std::string> out;
   std::error_code error;
   for (fs::directory_iterator at(versions(), error), end; !error && at != end; at.increment(error))
@@ -68,13 +68,13 @@ std::vector<std::string> Place::ids() const {
 
 bool is_place(const fs::path& folder) {
   std::error_code ignored;
-  const Place place{folder};
+  const InstallPlace place{folder};
   if (fs::exists(fs::symlink_status(place.link(), ignored))) return true;
   return fs::is_directory(fs::symlink_status(place.versions(), ignored)) &&
          !fs::exists(folder / "rt.toml", ignored);
 }
 
-std::optional<std::string> current_version(const Place& place) {
+std::optional<std::string> current_version(const InstallPlace& place) {
   std::error_code ignored;
   const std::string name = display_name(place.link());
   const auto status = fs::symlink_status(place.link(), ignored);
@@ -91,14 +91,14 @@ std::optional<std::string> current_version(const Place& place) {
   return id;
 }
 
-std::string current_version_if_any(const Place& place) noexcept {
+std::string current_version_if_any(const InstallPlace& place) noexcept {
   std::string target = link_target(place.link());
   if (!target.starts_with(kVersionsPrefix)) return "";
   target.erase(0, kVersionsPrefix.size());
   return is_version_id(target) ? target : "";
 }
 
-CurrentLink CurrentLink::prepare(const Place& place, const std::string& id) {
+CurrentLink CurrentLink::prepare(const InstallPlace& place, const std::string& id) {
   CurrentLink out;
   out.link_ = place.link();
   const fs::path draft = place.folder / ".current.new";
@@ -128,7 +128,7 @@ void CurrentLink::commit() {
   }
 }
 
-void refuse_open_place(const Place& place) {
+void refuse_open_place(const InstallPlace& place) {
   for (const fs::path& folder : {place.folder, place.versions()}) {
     struct stat found {};
     if (::stat(folder.c_str(), &found) != 0 || (found.st_mode & (S_IWGRP | S_IWOTH)) == 0) continue;
@@ -140,7 +140,7 @@ void refuse_open_place(const Place& place) {
 
 Content find_content(const fs::path& folder) {
   if (!is_place(folder)) return {folder, ""};
-  const Place place{folder};
+  const InstallPlace place{folder};
   refuse_open_place(place);
   const auto id = current_version(place);
   if (!id)
@@ -159,7 +159,7 @@ std::vector<std::string> places_below(const fs::path& store) {
   return out;
 }
 
-Place find_place(const std::string& to, const fs::path& store) {
+InstallPlace find_place(const std::string& to, const fs::path& store) {
   if (to.find('/') != std::string::npos) return {fs::path(to)};
   if (!to.empty()) {
     if (is_place_name(to)) return {store / to};

@@ -19,7 +19,7 @@ inline constexpr char kStore[] = "/var/lib/plumb";
 ///   installs.jsonl   what was installed and rolled back, when and by whom
 ///
 /// What plumb-rt writes while it runs a place, such as its journal, belongs to the place itself.
-struct Place {
+struct InstallPlace {
   std::filesystem::path folder;
 
   std::filesystem::path versions() const { return folder / "versions"; }
@@ -41,10 +41,10 @@ bool is_place(const std::filesystem::path& folder);
 
 /// The version that `current` names; nothing if there is no `current`. Throws Failure (kInput,
 /// E-RT-PLACE) if it is no link to a version that is there.
-std::optional<std::string> current_version(const Place& place);
+std::optional<std::string> current_version(const InstallPlace& place);
 
 /// The same in one system call, for looking again and again: empty instead of any failure.
-std::string current_version_if_any(const Place& place) noexcept;
+std::string current_version_if_any(const InstallPlace& place) noexcept;
 
 /// Lets `current` point to this version, in one step: a reader finds the old one or the new one.
 /// Waits until the disk has it. `prepare` makes the link under another name, so that a full disk is
@@ -52,7 +52,7 @@ std::string current_version_if_any(const Place& place) noexcept;
 /// E-WRITE).
 class CurrentLink {
  public:
-  static CurrentLink prepare(const Place& place, const std::string& id);
+  static CurrentLink prepare(const InstallPlace& place, const std::string& id);
   ~CurrentLink();  // removes a link that was not committed
   CurrentLink(CurrentLink&& other) noexcept;
   CurrentLink& operator=(CurrentLink&&) = delete;
@@ -65,7 +65,7 @@ class CurrentLink {
 
 /// Throws Failure (kInput, E-RT-PLACE) if others than the owner may write to the place or to its
 /// versions: they could let `current` point to another version.
-void refuse_open_place(const Place& place);
+void refuse_open_place(const InstallPlace& place);
 
 /// The content that a folder stands for: of a place the version that is `current`, resolved once;
 /// else the folder itself, with an empty version.
@@ -82,6 +82,6 @@ std::vector<std::string> places_below(const std::filesystem::path& store);
 
 /// The place that --to names: a folder if it contains '/', else a name below `store`; if it is
 /// empty the only place there. Throws Failure (kUsage, E-RT-PLACE).
-Place find_place(const std::string& to, const std::filesystem::path& store);
+InstallPlace find_place(const std::string& to, const std::filesystem::path& store);
 
 }  // namespace plumb::drivers::rt

@@ -15,7 +15,7 @@ RunOrigin find_run_origin(const Deployment& deployment) {
   out.key_id = deployment.model.origin.key_id;
   out.note = deployment.model.origin.note;
   if (!is_place(deployment.folder)) return out;
-  const Place place{deployment.folder};
+  const InstallPlace place{deployment.folder};
   out.place = std::filesystem::absolute(place.folder).lexically_normal().string();
   out.current = current_version_if_any(place);
   // An install writes its line before it asks for a swap, and changes `current` after it.

@@ -21,7 +21,8 @@ constexpr int kAttempts = 3;  // to get a status, see find_running
 constexpr std::chrono::milliseconds kBetweenAttempts{300};
 
 /// The object that a plumb-rt answers; nothing if none hears it.
-std::optional<Json> answer_of(const Place& place, const std::string& request, int within_ms) {
+std::optional<Json> answer_of(const InstallPlace& place, const std::string& request,
+                              int within_ms) {
   for (const auto& path : control_paths(place.folder))
     if (const auto answer = ask(path, request + "\n", within_ms)) {
       Json json = Json::parse(*answer, nullptr, false);
@@ -41,7 +42,7 @@ std::string text_or(const Json& json, const std::string& absent) {
 
 bool is_text_or_absent(const Json& json) { return json.is_string() || json.is_null(); }
 
-[[noreturn]] void refuse_silence(const Place& place) {
+[[noreturn]] void refuse_silence(const InstallPlace& place) {
   throw Failure(
       Exit::kEnvironment,
       {.code = "E-RT-CONTROL",
@@ -54,7 +55,7 @@ bool is_text_or_absent(const Json& json) { return json.is_string() || json.is_nu
 
 /// A plumb-rt holds the lock of its place for as long as it lives, also while it is stopped. One
 /// that starts, or whose machine is busy, answers a little later.
-std::optional<RunningPlace> find_running(const Place& place) {
+std::optional<RunningPlace> find_running(const InstallPlace& place) {
   std::optional<Json> json;
   for (int attempt = 0; !json && attempt < kAttempts; ++attempt) {
     if (attempt > 0) std::this_thread::sleep_for(kBetweenAttempts);
@@ -72,7 +73,7 @@ std::optional<RunningPlace> find_running(const Place& place) {
   return RunningPlace{.version = text_or(version, ""), .packing = text_or(packing, "")};
 }
 
-double ask_swap(const Place& place, const SwapRequest& request) {
+double ask_swap(const InstallPlace& place, const SwapRequest& request) {
   const auto json = answer_of(place, swap_line(request), kSwapAnswer_ms);
   if (!json) refuse_silence(place);
   if (member_of(*json, "ok") == true) {

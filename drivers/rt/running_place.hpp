@@ -17,10 +17,10 @@ struct RunningPlace {
 
 /// Nothing if none runs the place. Throws Failure (kEnvironment, E-RT-CONTROL) if one does, which
 /// does not answer to this user.
-std::optional<RunningPlace> find_running(const Place& place);
+std::optional<RunningPlace> find_running(const InstallPlace& place);
 
 /// Asks it to swap, and returns by how much corrections change [mm]. Throws Failure (kInput) with
 /// its own words if it refuses, kEnvironment if it does not answer.
-double ask_swap(const Place& place, const SwapRequest& request);
+double ask_swap(const InstallPlace& place, const SwapRequest& request);
 
 }  // namespace plumb::drivers::rt

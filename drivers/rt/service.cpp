@@ -204,7 +204,7 @@ void Service::remember() {
 /// Reads the version that the next start in this place would run.
 void Service::look_at_place() {
   if (!facts_.origin.place.empty())
-    facts_.origin.current = current_version_if_any(Place{deployment_.folder});
+    facts_.origin.current = current_version_if_any(InstallPlace{deployment_.folder});
 }
 
 /// Repeats once a day, where signatures are demanded, that what runs has none: nobody shall forget

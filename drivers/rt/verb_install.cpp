@@ -31,7 +31,7 @@ ChangeRequest change_of(const InstallOptions& options) {
                                         : ChangeRequest::Running::kSwap};
 }
 
-Json changed_json(const Place& place, const Changed& changed) {
+Json changed_json(const InstallPlace& place, const Changed& changed) {
   return {
       {"place", place.folder.string()},     {"version", changed.line.version},
       {"previous", changed.line.previous},  {"how", changed.nothing ? "nothing" : changed.line.how},
@@ -41,7 +41,7 @@ Json changed_json(const Place& place, const Changed& changed) {
       {"removed", changed.removed}};
 }
 
-std::string effect_text(const Place& place, const Changed& changed) {
+std::string effect_text(const InstallPlace& place, const Changed& changed) {
   const std::string name = shell_word(display_name(place.folder));
   if (changed.nothing) return "It was so already; nothing was changed.\n";
   if (changed.line.how == "swapped")
@@ -53,7 +53,7 @@ std::string effect_text(const Place& place, const Changed& changed) {
   return fmt::format("No plumb-rt runs it.\n\nNext:\n  plumb-rt run {} --check\n", name);
 }
 
-void report_change(const Place& place, const Changed& changed, Outcome& outcome) {
+void report_change(const InstallPlace& place, const Changed& changed, Outcome& outcome) {
   const std::string& key = changed.line.key;
   outcome.result = changed_json(place, changed);
   outcome.text = fmt::format(

@@ -27,8 +27,8 @@ struct VersionOptions {
 };
 
 /// The place that was named, which must be one.
-Place named_place(const VersionOptions& options) {
-  Place out = find_place(options.to, kStore);
+InstallPlace named_place(const VersionOptions& options) {
+  InstallPlace out = find_place(options.to, kStore);
   std::error_code error;
   std::ignore = std::filesystem::status(out.folder, error);
   if (error == std::errc::permission_denied)
@@ -48,7 +48,7 @@ Place named_place(const VersionOptions& options) {
 }
 
 /// The version that runs; empty if none does, or if that cannot be asked.
-std::string running_version(const Place& place) {
+std::string running_version(const InstallPlace& place) {
   try {
     const auto running = find_running(place);
     return running ? running->version : "";
@@ -95,7 +95,7 @@ std::string version_table(const Json& versions) {
 }
 
 void list_versions(const VersionOptions& options, Outcome& outcome) {
-  const Place place = named_place(options);
+  const InstallPlace place = named_place(options);
   const std::string current = current_version_if_any(place);
   const std::string running = running_version(place);
   const History history = read_history(place, current);
@@ -130,7 +130,7 @@ void refuse_open_version(const std::filesystem::path& folder) {
                                .help = "chmod go-w " + shell_word(display_name(folder))});
 }
 
-void verify_version(const Place& place, const std::string& id, const SigningRules& rules) {
+void verify_version(const InstallPlace& place, const std::string& id, const SigningRules& rules) {
   const auto folder = place.version(id);
   refuse_open_version(folder);
   const Deployment found = load_version(folder, rules);
@@ -143,7 +143,7 @@ void verify_version(const Place& place, const std::string& id, const SigningRule
 }
 
 void verify_place(const VersionOptions& options, Outcome& outcome) {
-  const Place place = named_place(options);
+  const InstallPlace place = named_place(options);
   const SigningRules rules = read_signing_rules(options.etc);
   outcome.remark(key_warnings(rules));
   const auto try_to = [&](auto check) {

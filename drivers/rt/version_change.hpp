@@ -14,7 +14,7 @@ namespace plumb::drivers::rt {
 
 /// How the version of a place that is current is changed.
 struct ChangeRequest {
-  Place place;
+  InstallPlace place;
   std::string etc;        // folder of the machine's settings
   double change_m = 0.0;  // the change of corrections that the operator allows; 0: that of rt.toml
   enum class Running : std::uint8_t {

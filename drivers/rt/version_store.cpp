@@ -89,7 +89,7 @@ Deployment load_version(const fs::path& folder, const SigningRules& rules) {
   return out;
 }
 
-VersionStore::VersionStore(const Place& place, Make make)
+VersionStore::VersionStore(const InstallPlace& place, Make make)
     : place_(place),
       made_(make == Make::kYes && make_place(place.folder)),
       made_versions_(make == Make::kYes && make_shared_folder(place.versions())),

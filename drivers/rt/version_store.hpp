@@ -20,7 +20,7 @@ class VersionStore {
   /// E-RT-INSTALLING, E-RT-LOCK. Makes the place if `make` says so, and removes it again at the end
   /// if nothing was installed in it. Throws kInput, E-RT-PLACE if others may write there.
   enum class Make : std::uint8_t { kNo, kYes };
-  VersionStore(const Place& place, Make make);
+  VersionStore(const InstallPlace& place, Make make);
   ~VersionStore();
   VersionStore(const VersionStore&) = delete;
   VersionStore& operator=(const VersionStore&) = delete;
@@ -47,7 +47,7 @@ class VersionStore {
   void remove_leftovers() const;
   std::filesystem::path aside() const;
 
-  Place place_;
+  InstallPlace place_;
   bool made_ = false;           // the folder of the place
   bool made_versions_ = false;  // versions/ in it
   FolderLock lock_;

@@ -9,6 +9,7 @@
 #include "fit/fit_cell.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
+#include "tests/random_numbers.hpp"
 
 /// What fit fits well, check calls usable; and each reason that it gives is the true one.
 namespace plumb::offline {
@@ -94,7 +95,8 @@ TEST(CheckAsFit, WholeTurnsBeyondTheLimitsAreAWarning) {
 }
 
 TEST(CheckAsFit, ALengthOfFortyMillimetresOffIsSaidAndFitted) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (long n = 1; n <= tests::scaled(1); ++n) {
+    const auto seed = static_cast<std::uint64_t>(n);
     Cell cell = arm_of(seed, 6);
     const MeasurementFiles measured = simulate(cell, plan_of(seed)).measured;
     cell.nominal.joints[2].d += 40e-3;

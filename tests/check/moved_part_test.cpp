@@ -75,8 +75,8 @@ TEST(MovedPart, AnEncoderThatSlippedIsNamed) {
 }
 
 TEST(MovedPart, AJumpSoLargeThatNoReadingFitsIsTheReasonGiven) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Case at = measured_with(seed, {"step_base=150mm"});
+  for (long seed = 1; seed <= tests::scaled(1); ++seed) {
+    const Case at = measured_with(static_cast<std::uint64_t>(seed), {"step_base=150mm"});
     const Check check = check_cell(at.cell, at.measured);
     ASSERT_NE(moved(check), nullptr) << seed << " " << verdict(check);
     EXPECT_NE(verdict(check).find("the tracker or the base moved by some "), std::string::npos)
@@ -155,8 +155,8 @@ TEST(MovedPart, NothingOfTheKindIsSaidOfSoundArmsDriftWarmingUpAndOtherEffects) 
       {"drift=300um", "gear_harmonics:J1=1mrad"},
       {"joint_compliance:J2=1mrad", "thermal_growth::5"}};
   for (const auto& effects : lacking)
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      const Case at = measured_with(seed, effects);
+    for (long seed = 1; seed <= tests::scaled(3); ++seed) {
+      const Case at = measured_with(static_cast<std::uint64_t>(seed), effects);
       const Check check = check_cell(at.cell, at.measured);
       const Problem* problem = moved(check);
       EXPECT_EQ(problem, nullptr) << seed << (effects.empty() ? "" : effects[0]) << ": "

@@ -15,6 +15,7 @@
 #include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 #include "tests/check/simulated_arm.hpp"
+#include "tests/random_numbers.hpp"
 
 /// Rows that were written otherwise than the others, from one line to another.
 namespace plumb::offline {
@@ -83,9 +84,9 @@ void expect_said(const Check& check, const std::string& lines, const std::string
 }
 
 TEST(RowFaults, AJointThatTurnsItsSignHalfWayIsNamedWithItsLines) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+  for (long seed = 1; seed <= tests::scaled(1); ++seed)
     for (const int joint : {0, 1, 2, 4})
-      expect_said(after(seed,
+      expect_said(after(static_cast<std::uint64_t>(seed),
                         [&](Rows& rows) {
                           for (std::size_t i = 40; i < rows.size(); ++i)
                             rows[i][static_cast<std::size_t>(joint)] *= -1.0;
@@ -133,8 +134,8 @@ TEST(RowFaults, PointsOneRowAwayFromTheirJointsAreNamed) {
 TEST(RowFaults, ARunEndsWhereItsRepairDoes) {
   // The points of a block have moved down by one row inside of it: the last of them is lost, and
   // the first row of the block holds that of nobody.
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
-    expect_said(after(seed,
+  for (long seed = 1; seed <= tests::scaled(1); ++seed)
+    expect_said(after(static_cast<std::uint64_t>(seed),
                       [](Rows& rows) {
                         for (std::size_t i = 35; i > 20; --i)
                           std::copy(rows[i - 1].begin() + 6, rows[i - 1].end(),

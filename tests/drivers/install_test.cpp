@@ -27,7 +27,7 @@ constexpr bool kSanitized = false;
 #endif
 
 namespace fs = std::filesystem;
-using drivers::rt::Place;
+using drivers::rt::InstallPlace;
 
 /// A machine without keys, an empty place, and deploy folders that were made one after the other.
 class Install : public testing::Test {
@@ -81,7 +81,7 @@ class Install : public testing::Test {
   }
 
   const Machine machine;
-  const Place place{machine.root / "place"};
+  const InstallPlace place{machine.root / "place"};
   const Deployed first, second, third;
 };
 
@@ -511,7 +511,7 @@ TEST_F(Install, ADiskThatIsFullOrReadOnlyIsSaid) {
   EXPECT_EQ(full.exit, 5);
   EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
   EXPECT_EQ(rt({"verify", "--to", small}).exit, 0);
-  EXPECT_EQ(Place{small}.ids().size(), 1U);
+  EXPECT_EQ(InstallPlace{small}.ids().size(), 1U);
   EXPECT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr), 0);
   const RtRan fixed = into(third);
   EXPECT_EQ(fixed.exit, 5);

@@ -21,7 +21,7 @@ namespace {
 /// Answers every request with the same text, and keeps the last one.
 class FakeRun {
  public:
-  FakeRun(const Place& place, std::string answer)
+  FakeRun(const InstallPlace& place, std::string answer)
       : lock_(place.folder),
         listening_(listen_anew(place.folder / "plumb-rt.sock")),
         thread_([this, answer = std::move(answer)] { run(answer); }) {}
@@ -65,7 +65,7 @@ class FakeRun {
 class RunningPlaces : public testing::Test {
  protected:
   const ScratchFolder scratch{"plumb-place-"};
-  const Place place{scratch.path()};
+  const InstallPlace place{scratch.path()};
 };
 
 TEST_F(RunningPlaces, NothingRunsWhatNobodyHolds) {

@@ -41,7 +41,7 @@ class VersionStores : public testing::Test {
   }
 
   const ScratchFolder scratch{"plumb-store-"};
-  const Place place{scratch.path() / "place"};
+  const InstallPlace place{scratch.path() / "place"};
   const tests::Deployed folder;
 };
 
