@@ -10,6 +10,7 @@
 
 #include "cell/column_names.hpp"
 #include "cell/units.hpp"
+#include "import/cell_time.hpp"
 #include "import/cells.hpp"
 #include "import/column_guess.hpp"
 #include "import/content.hpp"

@@ -30,11 +30,4 @@ struct Timestamps {
 Timestamps read_timestamps(const CellColumn& cells, char decimal,
                            DateOrder order = DateOrder::kUnknown);
 
-/// True if plain numbers up to this one may be such a stamp; else they count seconds or
-/// milliseconds from some start.
-bool may_be_date(double number);
-
-/// True if so many seconds after 1970 lie in the time of today's robots.
-bool may_be_epoch(double seconds);
-
 }  // namespace plumb::offline
