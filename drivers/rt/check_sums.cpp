@@ -51,15 +51,6 @@ SummedFile parse_sum(const fs::path& folder, const std::string& line) {
   return {.name = line.substr(begin), .sha256 = line.substr(0, kDigits)};
 }
 
-std::vector<SummedFile> parse_sums(const fs::path& folder, const std::string& text) {
-  std::vector<SummedFile> out;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) out.push_back(parse_sum(folder, line));
-  if (out.empty()) refuse_list(folder, "is empty");
-  return out;
-}
-
 void compare(const fs::path& folder, SummedFile& out) {
   std::error_code error;
   if (!fs::is_regular_file(folder / out.name, error))
@@ -113,14 +104,23 @@ std::string sums_text(const fs::path& folder) {
   return read_regular_file(folder / kSumsFile, kMostBytes);
 }
 
+std::vector<SummedFile> sum_lines(const fs::path& folder, const std::string& text) {
+  std::vector<SummedFile> out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) out.push_back(parse_sum(folder, line));
+  if (out.empty()) refuse_list(folder, "is empty");
+  return out;
+}
+
 std::map<std::string, std::string> listed_sums(const fs::path& folder, const std::string& text) {
   std::map<std::string, std::string> out;
-  for (SummedFile& file : parse_sums(folder, text)) out[file.name] = std::move(file.sha256);
+  for (SummedFile& file : sum_lines(folder, text)) out[file.name] = std::move(file.sha256);
   return out;
 }
 
 std::vector<SummedFile> read_sums(const fs::path& folder, const std::string& text) {
-  std::vector<SummedFile> out = parse_sums(folder, text);
+  std::vector<SummedFile> out = sum_lines(folder, text);
   for (SummedFile& file : out) compare(folder, file);
   return out;
 }
@@ -139,7 +139,7 @@ void verify_sums(const fs::path& folder, const std::string& text,
 
 void refuse_other(const fs::path& folder, const std::string& text, const fs::path& file,
                   const std::string& sha256) {
-  const auto listed = parse_sums(folder, text);
+  const auto listed = sum_lines(folder, text);
   const std::string name = listed_name(folder, file);
   const SummedFile* const line = line_of(listed, folder, name);
   if (line == nullptr) refuse_list(folder, fmt::format("does not list {}", name));

@@ -18,13 +18,17 @@ struct SummedFile {
 /// The text of SHA256SUMS. Throws Failure (kInput, E-RT-SUMS) if it is missing.
 std::string sums_text(const std::filesystem::path& folder);
 
+/// The lines of `text`, the content of SHA256SUMS; the files are not read. Throws Failure (kInput,
+/// E-RT-SUMS) if it is empty or has a line that is none of sha256sum.
+std::vector<SummedFile> sum_lines(const std::filesystem::path& folder, const std::string& text);
+
 /// The sums that `text`, the content of SHA256SUMS, lists, by the names of their files, which are
-/// not read. Throws as read_sums does.
+/// not read. Throws as `sum_lines` does.
 std::map<std::string, std::string> listed_sums(const std::filesystem::path& folder,
                                                const std::string& text);
 
-/// Compares every file that `text`, the content of SHA256SUMS, lists. Throws Failure (kInput,
-/// E-RT-SUMS) if it is empty or has a line that is none of sha256sum. Slow.
+/// Compares every file that `text`, the content of SHA256SUMS, lists. Throws as `sum_lines` does.
+/// Slow.
 std::vector<SummedFile> read_sums(const std::filesystem::path& folder, const std::string& text);
 
 /// Throws Failure (kInput, E-RT-SUMS) unless `text`, the content of SHA256SUMS, lists each of these

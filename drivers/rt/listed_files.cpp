@@ -4,17 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
+#include <utility>
 
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "program/shell_word.hpp"
 #include "program/sums_signature.hpp"
+#include "rt/check_sums.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
-
-constexpr std::size_t kSumDigits = 64;
 
 /// True for a name that leads to a file below the folder, however the folder is named.
 bool stays_inside(const std::string& name) {
@@ -29,26 +28,19 @@ bool stays_inside(const std::string& name) {
 
 std::vector<std::string> listed_files(const std::filesystem::path& folder,
                                       const std::string& sums) {
-  const auto refuse = [&](const char* code, const std::string& what) {
+  const auto refuse = [&](const std::string& what) {
     throw Failure(Exit::kInput,
-                  {.code = code,
-                   .message = fmt::format("{} {}", display_name(folder / kSumsFile), what),
+                  {.code = "E-RT-FOLDER",
+                   .message = fmt::format("{} lists {}", display_name(folder / kSumsFile), what),
                    .help = "deploy again: plumb deploy -o " + shell_word(display_name(folder))});
   };
   std::vector<std::string> out;
-  std::istringstream lines(sums);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty()) continue;
-    const bool sum = line.find_first_not_of("0123456789abcdef") == kSumDigits;
-    const std::size_t begin = line.find_first_not_of(" *", std::min(kSumDigits, line.size()));
-    if (!sum || begin == std::string::npos)
-      refuse("E-RT-SUMS", fmt::format("has a line that is no check sum: '{}'", line.substr(0, 80)));
-    const std::string name = line.substr(begin);
-    if (!stays_inside(name))
-      refuse("E-RT-FOLDER", fmt::format("lists '{}', which is no file of the folder", name));
-    if (name == kSumsFile || name == kSignatureFile)
-      refuse("E-RT-FOLDER", fmt::format("lists {}, which it cannot know", name));
-    out.push_back(name);
+  for (SummedFile& file : sum_lines(folder, sums)) {
+    if (!stays_inside(file.name))
+      refuse(fmt::format("'{}', which is no file of the folder", file.name));
+    if (file.name == kSumsFile || file.name == kSignatureFile)
+      refuse(file.name + ", which it cannot know");
+    out.push_back(std::move(file.name));
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "arm/effect_binding.hpp"
+#include "arm/neighbouring_axes.hpp"
 #include "cell/link_frame.hpp"
 #include "cell/setups.hpp"
 #include "effects/registry.hpp"
@@ -14,23 +15,11 @@ namespace {
 
 using Kind = Parameter::Kind;
 
-/// Neighbouring axes at a smaller angle are nearly parallel: Hayati's beta replaces d, which would
-/// be ill-conditioned. Chosen: 3 degrees, far above the errors of an arm.
-constexpr double kNearParallel_rad = 0.05;
 /// Shortest reach [m], so that an arm without link lengths has one. Chosen.
 constexpr double kLeastReach_m = 0.1;
 
 const char* const kTwistNames[] = {"dx", "dy", "dz", "ex", "ey", "ez"};
 const char* const kPoseNames[] = {"x", "y", "z", "rx", "ry", "rz"};
-
-bool near_parallel(const format::JointRow& link) {
-  return std::abs(std::sin(link.alpha)) < kNearParallel_rad;
-}
-
-/// The row whose link connects joint i and joint i + 1.
-int link_row(const format::Chain& chain, int joint) {
-  return chain.convention == format::Convention::kStandard ? joint : joint + 1;
-}
 
 void add_dh_candidates(const Cell& cell, std::vector<Parameter>& out) {
   const auto& chain = cell.nominal;
@@ -38,7 +27,7 @@ void add_dh_candidates(const Cell& cell, std::vector<Parameter>& out) {
   std::vector<bool> beta(n, false), hold_d(n, false);
   for (int i = 0; i + 1 < n; ++i) {
     const int row = link_row(chain, i);
-    if (!cell.mechanics[i].parallel_next && !near_parallel(chain.joints[row])) continue;
+    if (!cell.mechanics[i].parallel_next && !near_parallel(chain, i)) continue;
     beta[row] = true;
     // A sliding joint keeps its d, which is the offset of its own travel.
     if (chain.joints[i].type == format::JointType::kRevolute) hold_d[i] = true;

@@ -331,8 +331,6 @@ inline constexpr double kPartnerShare = 0.1;
 /// Correlation from which on two numbers are said not to be told apart. textbook: a standard
 /// deviation that is three times as large as alone, 1 / sqrt(1 - rho^2).
 inline constexpr double kCorrelated = 0.95;
-/// Axes are parallel to the geometric model. model.
-inline constexpr double kNearParallel_rad = 0.05;
 /// A reflector nearer to the last axis hardly shows that joint. chosen.
 inline constexpr double kOnAxis_m = 5e-3;
 /// A joint that uses more, and such a share of its limits, is not what is missing. chosen.

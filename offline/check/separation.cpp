@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/neighbouring_axes.hpp"
 #include "check/arm_shape.hpp"
 #include "check/constants.hpp"
 #include "numbers/pivoted_qr.hpp"
@@ -74,7 +75,7 @@ class Explainer {
         return std::any_of(kept_.begin(), kept_.end(),
                            [&](const Parameter& p) { return p.name == name; });
       };
-      if (shape_.angle_to_next[j] > check::kNearParallel_rad || has(d)) continue;
+      if (shape_.angle_to_next[j] > kNearParallel_rad || has(d)) continue;
       if (cell_.nominal.joints[j].type != format::JointType::kRevolute) continue;
       out_.push_back({Separation::Cause::kArm,
                       d,
@@ -182,7 +183,7 @@ class Explainer {
     if (last == cell_.joints() - 1 && shape_.reflector_off_last_axis_m < check::kOnAxis_m)
       return off_axis();
     for (int j = first; j < last; ++j)
-      if (shape_.angle_to_next[j] < check::kNearParallel_rad) return parallel(j);
+      if (shape_.angle_to_next[j] < kNearParallel_rad) return parallel(j);
     return "";
   }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 #include <set>
 
+#include "arm/neighbouring_axes.hpp"
 #include "cell/cell.hpp"
 #include "cell/link_frame.hpp"
 #include "cli/dh_file.hpp"
@@ -22,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNearParallel = 0.05;  // sine of the angle between neighbouring axes
 /// An arm whose links add up to more or less than these has, most often, lengths in another unit.
 constexpr double kLongestReach_m = 25.0, kShortestReach_m = 0.05;
 
@@ -56,10 +55,8 @@ void check(const NewArguments& options) {
 /// Neighbours whose axes are parallel: the link between them turns about x by 0 or 180 deg.
 std::vector<JointMechanics> mechanics_of(const format::Chain& chain) {
   std::vector<JointMechanics> out(chain.joints.size());
-  const bool standard = chain.convention == format::Convention::kStandard;
   for (std::size_t i = 0; i + 1 < chain.joints.size(); ++i)
-    out[i].parallel_next =
-        std::abs(std::sin(chain.joints[standard ? i : i + 1].alpha)) < kNearParallel;
+    out[i].parallel_next = near_parallel(chain, static_cast<int>(i));
   return out;
 }
 

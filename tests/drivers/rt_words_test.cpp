@@ -130,7 +130,7 @@ TEST(RecordSettings, AFileIsAtMostAQuarterOfTheWhole) {
 
 TEST(ListedFiles, NamesInsideOfTheFolderAreListedInTheirOrder) {
   const std::string sum(64, 'a');
-  EXPECT_TRUE(listed_files("folder", "").empty());
+  EXPECT_THROW(listed_files("folder", ""), Failure) << "a list that is empty vouches for nothing";
   const auto names = listed_files(
       "folder", sum + "  rt.toml\n\n" + sum + " *models/arm.plumb\n" + sum + "  a b.dbc\n");
   EXPECT_EQ(names, (std::vector<std::string>{"rt.toml", "models/arm.plumb", "a b.dbc"}));
