@@ -117,7 +117,8 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "A text in quotes ends on its own line, and only a separator may follow. A quote inside is "
      "written twice."},
     {"E-CSV-RAGGED",
-     "The row has more or fewer cells than the header. A text that holds the separator stands in "
+     "A row, or every row, has more or fewer cells than the header. A text that holds the "
+     "separator stands in "
      "quotes; a decimal comma needs ';' between the columns."},
     {"E-CSV-RANGE",
      "The number is too large or too small to be held: beyond 1e308 or below 1e-308."},

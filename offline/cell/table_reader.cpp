@@ -14,6 +14,8 @@
 namespace plumb::offline {
 namespace {
 
+/// So many rows of the same wrong length, and none of the right one: the header is wrong. Chosen.
+constexpr std::size_t kRowsThatAgree = 3;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Its heading was reported (E-CSV-UNIT), so that its cells are kept as texts.
@@ -239,7 +241,27 @@ void TableReader::check_texts() {
   }
 }
 
+void TableReader::blame_header() {
+  auto& errors = problems_.errors();
+  if (!table_.lines.empty() || errors.size() < kRowsThatAgree) return;
+  const bool alike = std::all_of(errors.begin(), errors.end(), [&](const Problem& p) {
+    return p.code == "E-CSV-RAGGED" && p.message == errors.front().message;
+  });
+  if (!alike) return;
+  Problem one = std::move(errors.front());
+  one.message = "every row has " + one.message;
+  one.place = Place{.file = table_.file,
+                    .line = table_.header_line,
+                    .column = 1,
+                    .length = static_cast<int>(table_.raw_header.size()),
+                    .source = table_.raw_header,
+                    .label = fmt::format("{} names", table_.columns.size())};
+  one.help = "complete the header, or delete the name of the column that is missing";
+  errors.assign(1, std::move(one));
+}
+
 void TableReader::check_content() {
+  blame_header();
   check_texts();
   const Place whole{.file = table_.file};
   if (!problems_.errors().empty()) return;

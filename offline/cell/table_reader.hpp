@@ -54,6 +54,8 @@ class TableReader {
   Table take();
 
  private:
+  /// One problem of the header in place of one for each row, if no row has as many cells as it.
+  void blame_header();
   void read_line(std::string_view line);
   void read_comment(std::string_view line);
   void read_header_line(std::string_view line);

@@ -130,6 +130,14 @@ TEST(CsvMessage, OfRaggedRowsPointsAtTheExtraCellOrTheEnd) {
   EXPECT_EQ(problems[1].place->label, "one too many");
 }
 
+TEST(CsvMessage, OfAHeaderThatFitsNoRowPointsAtTheHeader) {
+  const auto problems = of_table("# of the cell\nx_mm,y_mm\n1,2,3\n4,5,6\n7,8,9\n");
+  EXPECT_EQ(summary(problems), Summary{"E-CSV-RAGGED 2:1"});
+  EXPECT_EQ(problems[0].message, "every row has 3 cells where the header has 2");
+  EXPECT_EQ(of_table("x_mm,y_mm\n1,2,3\n4,5,6\n7,8,9\n1,2\n").size(), 3U) << "one row fits";
+  EXPECT_EQ(of_table("x_mm,y_mm\n1,2,3\n4\n7,8,9\n").size(), 3U) << "they differ";
+}
+
 TEST(CsvMessage, OfCellsThatAreNoFiniteNumbers) {
   const auto problems =
       of_table("x_mm,y_mm\nabc,\nnan,inf\n-INF,1e999\n1e-999,0x10\n1 2,--1\n+-1,1,2\n");
