@@ -4,63 +4,16 @@
 #include "rt/running_place.hpp"
 
 #include <gtest/gtest.h>
-#include <poll.h>
 
-#include <atomic>
-#include <thread>
-
-#include "program/folder_lock.hpp"
 #include "program/scratch_folder.hpp"
 #include "rt/control_reply.hpp"
-#include "rt/listener.hpp"
+#include "tests/drivers/rt/fake_run.hpp"
 #include "tests/drivers/rt/problem_of.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
 
-/// Answers every request with the same text, and keeps the last one.
-class FakeRun {
- public:
-  FakeRun(const InstallPlace& place, std::string answer)
-      : lock_(place.folder),
-        listening_(listen_anew(place.folder / "plumb-rt.sock")),
-        thread_([this, answer = std::move(answer)] { run(answer); }) {}
-  ~FakeRun() { end(); }
-  FakeRun(const FakeRun&) = delete;
-  FakeRun& operator=(const FakeRun&) = delete;
-
-  /// The last request. Answers none from then on.
-  std::string asked() {
-    end();
-    return asked_;
-  }
-
- private:
-  static std::optional<Descriptor> listen_anew(const std::filesystem::path& path) {
-    std::filesystem::remove(path);
-    return listen_unix(path);
-  }
-  void end() {
-    ended_ = true;
-    if (thread_.joinable()) thread_.join();
-  }
-  void run(const std::string& answer) {
-    ReserveDescriptor reserve;
-    while (!ended_) {
-      pollfd at{.fd = listening_->get(), .events = POLLIN, .revents = 0};
-      if (::poll(&at, 1, 10) != 1) continue;
-      serve_one(listening_->get(), reserve, "\n", {}, [&](const std::string& request) {
-        asked_ = request;
-        return answer;
-      });
-    }
-  }
-  const FolderLock lock_;
-  const std::optional<Descriptor> listening_;
-  std::string asked_;
-  std::atomic<bool> ended_{false};
-  std::thread thread_;
-};
+using tests::FakeRun;
 
 class RunningPlaces : public testing::Test {
  protected:
