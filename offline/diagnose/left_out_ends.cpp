@@ -11,7 +11,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kMostly = 0.8;  // share of a run of poses that was left out
+constexpr double kMostly = 0.8;  // share of a run of poses: left out before, explained now
 
 /// Length of the longest run at the beginning of `rows` that was mostly left out; 0 if it is short.
 std::size_t run_left_out(const std::vector<int>& rows, const std::set<int>& out) {
@@ -52,8 +52,11 @@ std::optional<Proposal> with_step_at_ends(const Selection& s, const Found&) {
   const Found* step = look.supported([](const Found& f) { return is_change_point(f.entry.name); });
   if (step == nullptr) return std::nullopt;
   FittedModel next = s.fitted_from(ends, with_found(s.cell().effects, *step));
-  // A step that leaves them outliers does not explain them.
-  if (next.calibration.outliers.size() >= s.calibration().outliers.size()) return std::nullopt;
+  // A step that leaves them outliers does not explain them. Its numbers alone fit two poses.
+  const auto number = [](const Calibration& c) { return static_cast<double>(c.outliers.size()); };
+  const double put_back = number(s.calibration()) - number(ends);
+  const double out_again = number(next.calibration) - number(ends);
+  if (out_again > (1.0 - kMostly) * put_back) return std::nullopt;
   return Proposal{.model = std::move(next), .in = {*step}};
 }
 
