@@ -178,13 +178,15 @@ std::optional<int> best_beside(CutSearch& part, const std::vector<int>& others,
   return best->cut;
 }
 
-/// Searches every cut again beside the others, at most `near` visits away, and sorts them.
+/// Searches every cut again beside the others, at most `near` visits from where it was, and sorts
+/// them.
 void settle_near(CutSearch& part, std::vector<int>& cuts, int near) {
+  const std::vector<int> found = cuts;
   settle(cuts, kSettlingRounds, [&](int& cut) {
     std::vector<int> others = cuts;
     std::erase(others, cut);
-    const int before = cut;
-    cut = best_beside(part, others, cuts_near(part.cuts(), cut, near)).value_or(cut);
+    const int before = cut, here = found[static_cast<std::size_t>(&cut - cuts.data())];
+    cut = best_beside(part, others, cuts_near(part.cuts(), here, near)).value_or(cut);
     return cut != before;
   });
   std::sort(cuts.begin(), cuts.end());
