@@ -4,13 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <stdexcept>
 
 #include "diagnose/revision.hpp"
 #include "diagnose/unless_refused.hpp"
-#include "fit/calibrate.hpp"
-#include "tests/cases/blind_case.hpp"
+#include "tests/diagnose/begun.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -21,18 +19,6 @@ BlindRequest yielding() {
   out.fresh_poses = 1;
   out.effects = {"joint_compliance:J2:5"};
   return out;
-}
-
-/// Everything that the selection was made from is gone when it returns, but the measurements.
-Selection begun(const BlindCase& blind) {
-  const Measurements& m = blind.measured.measured;
-  std::vector<int> rows(static_cast<std::size_t>(m.size()));
-  std::iota(rows.begin(), rows.end(), 0);
-  const Cell cell = blind.cell;
-  const Calibration base = calibrate(cell, m, rows);
-  const WhitenedFit whitened =
-      make_whitened_fit(cell, m, base, without_outliers(rows, base.outliers), {});
-  return Selection({cell, m, rows, {}, {}}, base, whitened, scan(whitened, {}, {}));
 }
 
 TEST(Selection, RefersToItsOwnCellWhereverItGoes) {
