@@ -260,8 +260,18 @@ std::vector<Outlier> outliers_of_known_arm(CoarseFit& coarse) {
   return out;
 }
 
+/// Which numbers of the arm a fit holds near nominal: those that the poses hardly show; or all,
+/// where the fit is lost otherwise.
+enum class HeldNear { kWeakDirections, kAllDirections };
+
+WeakDirections held_directions(const FitData& data, const ArmState& state,
+                               const std::vector<Parameter>& parameters, HeldNear held) {
+  return held == HeldNear::kAllDirections ? all_directions(data, state, parameters)
+                                          : weak_directions(data, state, parameters);
+}
+
 CoarseFit coarse_from(const FitData& data, const ArmState& start,
-                      const std::vector<Parameter>& candidates) {
+                      const std::vector<Parameter>& candidates, HeldNear held) {
   CoarseFit out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
   const ArmState nominal = nominal_state(*data.cell, *data.measured);
   ArmState placed = nominal;
@@ -270,7 +280,7 @@ CoarseFit coarse_from(const FitData& data, const ArmState& start,
   placed.more = start.more;
   out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse);
   check_enough(data, unknown_before(data, out.subset.kept), candidates);
-  out.data.weak = weak_directions(data, unhidden(placed), out.subset.kept);
+  out.data.weak = held_directions(data, unhidden(placed), out.subset.kept, held);
   out.solution.state = with_held_at_nominal(unhidden(start), nominal, candidates, out.subset.held);
   out.outliers = outliers_of_known_arm(out);
   const auto more = solve_without_outliers(out.data, out.subset.kept, out.solution);
@@ -281,9 +291,10 @@ CoarseFit coarse_from(const FitData& data, const ArmState& start,
 /// The best of the fits from all starts. Adds W-FIT-AMBIGUOUS if one with another frame is nearly
 /// as good.
 CoarseFit coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
-                          const std::vector<Parameter>& candidates, std::vector<Problem>& remarks) {
+                          const std::vector<Parameter>& candidates, HeldNear held,
+                          std::vector<Problem>& remarks) {
   std::vector<CoarseFit> all;
-  for (const auto& start : starts) all.push_back(coarse_from(data, start, candidates));
+  for (const auto& start : starts) all.push_back(coarse_from(data, start, candidates, held));
   if (all.size() == 1) return std::move(all.front());
   std::sort(all.begin(), all.end(),
             [](const CoarseFit& a, const CoarseFit& b) { return a.scatter() < b.scatter(); });
@@ -377,7 +388,7 @@ void add_likeness(const LikenessJudgement& judged, const EarlierArm& earlier, co
 }
 
 Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
-                    const std::vector<Parameter>& candidates) {
+                    const std::vector<Parameter>& candidates, HeldNear held) {
   FitData data = whole;  // its sigma is the stated one
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
@@ -399,7 +410,7 @@ Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
   // Weak directions depend on the noise of the instrument, not on effects that the model lacks.
   FitData stated = whole;
   stated.arm = data.arm;
-  data.weak = weak_directions(stated, solution.state, fine.kept);
+  data.weak = held_directions(stated, solution.state, fine.kept, held);
   const int coarse_iterations = solution.iterations;
   if (has_series(solution.state)) {
     stated.weak = data.weak;
@@ -421,66 +432,105 @@ Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
   return out;
 }
 
-Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
-                       const ArmState* start) {
-  check_poses(measured, rows);
-  FitData data = fit_data(cell, measured, rows);
-  auto candidates = candidates_of(cell, data);
-  check_enough(data, 0, candidates);
-  // As long as the errors of the model exceed the noise, all readings have the same weight.
-  FitData even = data;
-  even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
-  // Of many rows, some are enough for a start and for the scatter.
-  even.rows = thinned(even, kManyRows);
-  std::vector<ArmState> starts;
-  if (start != nullptr)
-    starts.push_back(*start);
-  else
-    for (auto& placed : placements(even, nominal_state(cell, measured), candidates))
-      starts.push_back(std::move(placed.state));
+/// Where a calibration starts, and what it may fit.
+struct CalibrationStart {
+  FitData data, even;  // even: all readings of the same weight, and only some of many rows
+  std::vector<ArmState> states;
+  std::vector<Parameter> candidates;
   UnknownNumbers unknown;
+};
+
+CalibrationStart start_of(const Cell& cell, const Measurements& measured,
+                          const std::vector<int>& rows, const ArmState* start) {
+  check_poses(measured, rows);
+  CalibrationStart out;
+  out.data = fit_data(cell, measured, rows);
+  out.candidates = candidates_of(cell, out.data);
+  check_enough(out.data, 0, out.candidates);
+  // As long as the errors of the model exceed the noise, all readings have the same weight.
+  out.even = out.data;
+  out.even.sigma_m.setConstant(picked(out.data.sigma_m, rows).mean());
+  // Of many rows, some are enough for a start and for the scatter.
+  out.even.rows = thinned(out.even, kManyRows);
+  if (start != nullptr)
+    out.states.push_back(*start);
+  else
+    for (auto& placed : placements(out.even, nominal_state(cell, measured), out.candidates))
+      out.states.push_back(std::move(placed.state));
   if (cell.fit.earlier) {
     check_same_model(cell, *cell.fit.earlier);
-    unknown = unknown_numbers(*cell.fit.earlier, cell, even, starts.front(), candidates);
-    candidates = unknown.candidates;
-    even.arm = data.arm =
-        known_within(kHardlyLike, data, starts.front(), candidates, *cell.fit.earlier);
+    out.unknown =
+        unknown_numbers(*cell.fit.earlier, cell, out.even, out.states.front(), out.candidates);
+    out.candidates = out.unknown.candidates;
+    out.even.arm = out.data.arm =
+        known_within(kHardlyLike, out.data, out.states.front(), out.candidates, *cell.fit.earlier);
   }
+  return out;
+}
+
+/// A calibration that may have ended in another arm: check_same_arm tells.
+Calibration calibrated_with(const Cell& cell, CalibrationStart start, HeldNear held) {
   std::vector<Problem> remarks;
-  CoarseFit coarse = coarse_from_any(even, starts, candidates, remarks);
-  const auto open = reflector_left_open(data, unknown, coarse.subset.held);
+  CoarseFit coarse = coarse_from_any(start.even, start.states, start.candidates, held, remarks);
+  const auto open = reflector_left_open(start.data, start.unknown, coarse.subset.held);
   if (!open.empty()) {
-    for (auto& state : starts) state = with_reflector_of(*cell.fit.earlier, state, open);
-    std::erase_if(candidates, [&](const Parameter& p) { return holds(open, p.name); });
+    for (auto& state : start.states) state = with_reflector_of(*cell.fit.earlier, state, open);
+    std::erase_if(start.candidates, [&](const Parameter& p) { return holds(open, p.name); });
     remarks = {reflector_as_earlier(*cell.fit.earlier, open)};
-    coarse = coarse_from_any(even, starts, candidates, remarks);
+    coarse = coarse_from_any(start.even, start.states, start.candidates, held, remarks);
   }
-  check_placed_by_poses(data, unknown, coarse.subset.held);
-  Calibration out = refined(cell, data, std::move(coarse), candidates);
-  out.held.insert(out.held.end(), unknown.redundant.begin(), unknown.redundant.end());
+  check_placed_by_poses(start.data, start.unknown, coarse.subset.held);
+  Calibration out = refined(cell, start.data, std::move(coarse), start.candidates, held);
+  const auto& redundant = start.unknown.redundant;
+  out.held.insert(out.held.end(), redundant.begin(), redundant.end());
   for (const auto& p : open) out.held.push_back(p.name);
-  check_same_arm(out.estimates);
   warn_of_far_parameters(out.estimates, remarks);
   warn_of_impossible_effects(out, remarks);
   out.remarks.insert(out.remarks.begin(), remarks.begin(), remarks.end());
   return out;
 }
 
-}  // namespace
-
-Calibration calibrate(const Cell& cell, const Measurements& measured,
-                      const std::vector<int>& rows) {
-  return calibrated(cell, measured, rows, nullptr);
+bool is_lost(const Failure& failure) {
+  const std::string& code = failure.problems().front().code;
+  return code == "E-FIT-CONVERGE" || code == "E-FIT-FAR";
 }
 
-Calibration calibrate_from(const Cell& cell, const Measurements& measured,
-                           const std::vector<int>& rows, const ArmState& start) {
-  return calibrated(cell, measured, rows, &start);
+double rms_m(const FitData& data, const ArmState& state) {
+  const Measurements some = pick(*data.measured, data.rows);
+  return std::sqrt(residuals(some, predict_points(state, some)).squaredNorm() /
+                   static_cast<double>(data.rows.size()));
 }
 
-Calibration calibrate_near(const Cell& cell, const Measurements& measured,
-                           const std::vector<int>& rows, const ArmState& start,
-                           const Calibration& from) {
+/// A fit that does not converge, or not to this arm, is made once more with all its numbers held
+/// near nominal. That counts if it explains the readings as well: an arm that is another one than
+/// its cell says stays another one.
+Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                       const ArmState* start) {
+  const CalibrationStart from = start_of(cell, measured, rows, start);
+  std::optional<Calibration> far;
+  std::optional<Failure> lost;
+  try {
+    far = calibrated_with(cell, from, HeldNear::kWeakDirections);
+    check_same_arm(far->estimates);
+    return std::move(*far);
+  } catch (const Failure& failure) {
+    if (!is_lost(failure)) throw;
+    lost = failure;
+  }
+  try {
+    Calibration out = calibrated_with(cell, from, HeldNear::kAllDirections);
+    check_same_arm(out.estimates);
+    if (!far || rms_m(from.data, out.state) < kNearlyAsGood * rms_m(from.data, far->state))
+      return out;
+  } catch (const Failure& failure) {
+    if (failure.exit_code() != Exit::kNumbersSayNo) throw;
+  }
+  throw Failure(std::move(*lost));
+}
+
+Calibration calibrated_near(const Cell& cell, const Measurements& measured,
+                            const std::vector<int>& rows, const ArmState& start,
+                            const Calibration& from, HeldNear held) {
   FitData stated = fit_data(cell, measured, without_outliers(rows, from.outliers));
   stated.arm = from.known;
   std::vector<Parameter> candidates;
@@ -490,7 +540,7 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   FitData data = stated;
   widen(data, excess_of(data, solution, candidates.size()));
   const auto subset = identifiable_parameters(data, solution.state, candidates, kFine);
-  data.weak = weak_directions(stated, solution.state, subset.kept);
+  data.weak = held_directions(stated, solution.state, subset.kept, held);
   FitData weakly_held = stated;
   weakly_held.weak = data.weak;
   if (has_series(solution.state)) {
@@ -510,6 +560,29 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   out.rank = from.rank;
   out.iterations = solution.iterations;
   return out;
+}
+
+}  // namespace
+
+Calibration calibrate(const Cell& cell, const Measurements& measured,
+                      const std::vector<int>& rows) {
+  return calibrated(cell, measured, rows, nullptr);
+}
+
+Calibration calibrate_from(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& start) {
+  return calibrated(cell, measured, rows, &start);
+}
+
+Calibration calibrate_near(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& start,
+                           const Calibration& from) {
+  try {
+    return calibrated_near(cell, measured, rows, start, from, HeldNear::kWeakDirections);
+  } catch (const Failure& failure) {
+    if (!is_lost(failure)) throw;
+  }
+  return calibrated_near(cell, measured, rows, start, from, HeldNear::kAllDirections);
 }
 
 std::vector<Estimate> estimates_of(const ArmState& state, const ArmState& nominal,

@@ -14,7 +14,9 @@ namespace plumb::offline {
 /// axes are nearly parallel (or complete link twists), tracker frame and target, weighted by sigma.
 /// Parameters that the poses cannot tell apart are held at nominal, and so are those whose standard
 /// deviation would exceed 5 mm or 5 mrad, as with a reflector on the last axis or too few poses.
-/// Poses that the others contradict are left out and listed. Throws Failure (kNumbersSayNo) with
+/// Poses that the others contradict are left out and listed. A fit that does not converge, or ends
+/// far from nominal, is made again with all numbers of the arm held near nominal by the prior of
+/// the cell, and counts if it explains the poses as well. Throws Failure (kNumbersSayNo) with
 /// the reason if the fit does not converge, if there are too few rows for the parameters, or if the
 /// RMS residual exceeds 1 % of the reach.
 Calibration calibrate(const Cell& cell, const Measurements& measured, const std::vector<int>& rows);

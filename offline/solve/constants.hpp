@@ -92,5 +92,15 @@ inline constexpr double kNoChange = 1e-7;
 inline constexpr double kNoGain = 1e-6;
 /// Iterations. Numbers that the poses hardly show converge slowly. cost.
 inline constexpr int kMostIterations = 300;
+/// The same of a fit with series of waves, whose normal equations are solved for hundreds of
+/// amplitudes. cost.
+inline constexpr int kMostSeriesSteps = 200;
+/// After so many iterations a fit ends if the predictions have come to rest over the last ones.
+/// cost: they bound the time of fits with parameters that the poses do not show.
+inline constexpr std::size_t kRestPatience = 50, kRestLookBack = 10;
+/// RMS motion of the predictions over the last iterations, in standard deviations of the noise,
+/// below which they are at rest; and below which a fit that has used all its iterations still
+/// counts as converged. Both are far below what the noise does to the predictions. chosen.
+inline constexpr double kAtRest = 3e-3, kNearlyAtRest = 3e-2;
 
 }  // namespace plumb::offline

@@ -12,12 +12,15 @@
 #include "solve/descent.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/many_rows.hpp"
+#include "solve/predictions_at_rest.hpp"
 #include "solve/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kMostSeriesSteps = 30;
+/// Steps after which the damping of one step is kept for the next: what still raises the cost by
+/// undamped steps does so again and again.
+constexpr int kUndampedSeriesSteps = 30;
 constexpr double kSeriesDamping = 1e-10, kFirstSeriesDamping = 1e-4, kMostSeriesDamping = 1e4;
 /// The normal equations are computed anew after a step that lowers the cost by less than this share
 /// of what it promised. Affects the time only.
@@ -166,11 +169,12 @@ Eigen::VectorXd behind_unknown(Eigen::Index numbers, const Eigen::VectorXd& sigm
 /// Normal equations with the prior of the series, scaled to a unit diagonal.
 class SeriesEquations {
  public:
-  SeriesEquations(const Eigen::MatrixXd& information, const Eigen::VectorXd& sigma)
+  SeriesEquations(const Eigen::MatrixXd& information, const Eigen::VectorXd& sigma,
+                  double damping = kSeriesDamping)
       : matrix_(with_prior(information, behind_unknown(information.rows(), sigma))) {
     scale_ = matrix_.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     matrix_ = (scale_.asDiagonal() * matrix_ * scale_.asDiagonal()).eval();
-    damp(kSeriesDamping);
+    damp(damping);
   }
 
   void damp(double damping) {
@@ -220,6 +224,8 @@ Solution solve_with_series(const FitData& data, const ArmState& start,
   SeriesEquations equations(problem.information(here), problem.sigma());
   bool fresh = true;  // the equations are those of `here`, not of an earlier point
   double damping = kSeriesDamping;
+  PredictionsAtRest at_rest(data.residual_count());
+  at_rest.add(here.cost);
   for (; !out.converged && out.iterations < kMostSeriesSteps && damping < kMostSeriesDamping;
        ++out.iterations) {
     const Eigen::VectorXd descent = problem.descent(here);
@@ -233,7 +239,11 @@ Solution solve_with_series(const FitData& data, const ArmState& start,
     const double fall = here.cost - there.cost;
     const bool better = std::isfinite(there.cost) && fall > 0.0;
     if (better) here = std::move(there);
-    if (better && fall > kAsPromised * promised) {
+    at_rest.add(here.cost);
+    out.converged = at_rest.may_end();
+    const bool keeps_damping = out.iterations >= kUndampedSeriesSteps;
+    const bool is_damped = keeps_damping && damping > kSeriesDamping;
+    if (better && fall > kAsPromised * promised && !is_damped) {
       fresh = false;
       continue;
     }
@@ -242,10 +252,15 @@ Solution solve_with_series(const FitData& data, const ArmState& start,
       equations.damp(damping);
       continue;
     }
-    equations = SeriesEquations(problem.information(here), problem.sigma());
+    if (!keeps_damping)
+      damping = kSeriesDamping;
+    else if (better)
+      damping = damping > kFirstSeriesDamping ? 0.1 * damping : kSeriesDamping;
+    equations = SeriesEquations(problem.information(here), problem.sigma(), damping);
     fresh = true;
-    damping = kSeriesDamping;
   }
+  out.converged = out.converged || at_rest.nearly();
+  if (damping > kSeriesDamping) equations.damp(kSeriesDamping);
   out.reason = "the residuals still change with every step";
   out.cost = here.cost;
   out.marginal = equations.marginal(problem.count());

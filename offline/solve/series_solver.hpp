@@ -14,8 +14,9 @@ bool has_series(const ArmState& state);
 
 /// As `solve`, but fits the amplitudes of all series of waves together with `parameters`. The
 /// motion is nearly linear in the amplitudes, so the normal equations are reused for many steps. A
-/// wave moves one joint only, so its sums need one number a pose instead of one a coordinate.
-/// [Gauss-Newton; Nocedal & Wright 2006, 10.3]
+/// wave moves one joint only, so its sums need one number a pose instead of one a coordinate. As
+/// there, it also ends once the predictions are at rest. [Gauss-Newton; Nocedal & Wright 2006,
+/// 10.3]
 ///
 /// The Jacobian of the solution is that of `parameters` alone; `marginal` is the information on
 /// them with the amplitudes unknown as well.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "arm/arm_change.hpp"
 #include "solve/constants.hpp"
@@ -13,6 +12,7 @@
 #include "solve/evaluation.hpp"
 #include "solve/fit_lines.hpp"
 #include "solve/many_rows.hpp"
+#include "solve/predictions_at_rest.hpp"
 #include "solve/series_solver.hpp"
 #include "solve/solution_checks.hpp"
 
@@ -21,43 +21,20 @@ namespace {
 
 /// Numbers of a Jacobian up to which QR is used; beyond, the normal equations are much faster.
 constexpr double kDenseQrUpTo = 2e5;
-/// After so many iterations a fit ends if the predictions have come to rest over the last ones.
-/// Chosen; they bound the time of fits with parameters that the poses do not show.
-constexpr int kPatience = 50, kLookBack = 10;
-/// RMS motion of the predictions over these iterations, in standard deviations of the noise, below
-/// which they are at rest; and below which a fit that has used all its iterations still counts as
-/// converged. Chosen: both are far below what the noise does to the predictions.
-constexpr double kAtRest = 3e-3, kNearlyAtRest = 3e-2;
-
-/// RMS motion of the predictions, in standard deviations of the noise, that corresponds to a fall
-/// of the cost near its minimum: there cost - least cost = |J dx|^2 / 2.
-double motion_of(double cost_fall, double cost, int residuals) {
-  const double n = std::max(1, residuals);
-  const double scatter = std::max(1.0, std::sqrt(2.0 * cost / n));
-  return std::sqrt(2.0 * std::max(0.0, cost_fall) / n) / scatter;
-}
-
 /// Ends a solution once its predictions have come to rest.
-class PredictionsAtRest final : public ceres::IterationCallback {
+class EndAtRest final : public ceres::IterationCallback {
  public:
-  explicit PredictionsAtRest(int residuals) : residuals_(residuals) {}
+  explicit EndAtRest(int residuals) : predictions_(residuals) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
-    costs_.push_back(now.cost);
-    return now.iteration >= kPatience && recent_motion() < kAtRest
-               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-               : ceres::SOLVER_CONTINUE;
+    predictions_.add(now.cost);
+    return predictions_.may_end() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
-  double recent_motion() const {
-    if (costs_.size() <= kLookBack) return std::numeric_limits<double>::infinity();
-    return motion_of(costs_[costs_.size() - 1 - kLookBack] - costs_.back(), costs_.back(),
-                     residuals_);
-  }
+  const PredictionsAtRest& predictions() const { return predictions_; }
 
  private:
-  int residuals_;
-  std::vector<double> costs_;
+  PredictionsAtRest predictions_;
 };
 
 /// The lines of a fit as Ceres asks for them, in one block.
@@ -101,7 +78,7 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;
-  PredictionsAtRest at_rest(data.residual_count());
+  EndAtRest at_rest(data.residual_count());
   options.callbacks.push_back(&at_rest);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -117,7 +94,7 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   out.converged = summary.termination_type == ceres::CONVERGENCE ||
                   summary.termination_type == ceres::USER_SUCCESS ||
                   std::abs(last.cost_change) < kNoChange * last.cost ||
-                  at_rest.recent_motion() < kNearlyAtRest;
+                  at_rest.predictions().nearly();
   out.reason = summary.message;
   return out;
 }

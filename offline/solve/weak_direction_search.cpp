@@ -37,31 +37,42 @@ Eigen::MatrixXd less_the_first(const Eigen::MatrixXd& J, Eigen::Index first) {
          scale.tail(last).cwiseInverse().asDiagonal();
 }
 
+/// The numbers of the arm that have the prior of the cell, and its 1 sigma for each.
+struct HeldNumbers {
+  std::vector<Parameter> parameters, others;
+  std::vector<double> sigma;
+};
+HeldNumbers held_numbers(const FitData& data, const std::vector<Parameter>& parameters) {
+  HeldNumbers out;
+  if (data.cell == nullptr) return out;
+  for (const auto& p : parameters) {
+    const double sigma = prior_of(p, data);
+    (sigma > 0.0 ? out.parameters : out.others).push_back(p);
+    if (sigma > 0.0) out.sigma.push_back(sigma);
+  }
+  return out;
+}
+
+Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
+
 }  // namespace
 
 WeakDirections weak_directions(const FitData& data, const ArmState& state,
                                const std::vector<Parameter>& parameters) {
   WeakDirections out;
-  if (data.cell == nullptr) return out;
-  std::vector<Parameter> order;
-  std::vector<double> prior;
-  for (const auto& p : parameters) {
-    const double sigma = prior_of(p, data);
-    if (sigma > 0.0) {
-      out.parameters.push_back(p);
-      prior.push_back(sigma);
-    } else {
-      order.push_back(p);
-    }
-  }
-  if (out.parameters.empty()) return out;
+  HeldNumbers held = held_numbers(data, parameters);
+  if (held.parameters.empty()) return out;
+  std::vector<Parameter> order = std::move(held.others);
   const auto first = static_cast<Eigen::Index>(order.size());
+  out.parameters = std::move(held.parameters);
   order.insert(order.end(), out.parameters.begin(), out.parameters.end());
   FitData thin = data;
   thin.weak = {};
   thin.rows = thinned(data, kRankRows);
-  const Eigen::Map<const Eigen::VectorXd> sigma(prior.data(),
-                                                static_cast<Eigen::Index>(prior.size()));
+  const Eigen::VectorXd sigma = as_vector(held.sigma);
   const Eigen::MatrixXd shown =
       less_the_first(jacobian_for_all(data, thin, state, order), first) * sigma.asDiagonal();
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
@@ -72,6 +83,14 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   const Eigen::MatrixXd V = every.rightCols(sigma.size() - strong);
   out.weights = V.transpose() * sigma.cwiseInverse().asDiagonal();
   out.share = V.rowwise().squaredNorm();
+  return out;
+}
+
+WeakDirections all_directions(const FitData& data, const ArmState& state,
+                              const std::vector<Parameter>& parameters) {
+  WeakDirections out = weak_directions(data, state, parameters);
+  if (!out.parameters.empty())
+    out.weights = as_vector(held_numbers(data, parameters).sigma).cwiseInverse().asDiagonal();
   return out;
 }
 

@@ -23,4 +23,12 @@ namespace plumb::offline {
 WeakDirections weak_directions(const FitData& data, const ArmState& state,
                                const std::vector<Parameter>& parameters);
 
+/// Every number of the arm among `parameters` as a direction of its own, for a fit that is lost
+/// otherwise: far from where the weak directions were found others are weak, along which its
+/// numbers wander. The prior of the cell holds each, which is wide beside what the poses tell of
+/// all that they do show. `share` is that of the weak directions, since only what lies in these is
+/// in fact held.
+WeakDirections all_directions(const FitData& data, const ArmState& state,
+                              const std::vector<Parameter>& parameters);
+
 }  // namespace plumb::offline

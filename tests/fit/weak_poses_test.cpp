@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -51,6 +52,52 @@ Cell six_axis_arm() {
       "/cell/cell.toml");
 }
 
+/// Joint positions whose measured points lie on a straight line of half a metre; the wrist turns
+/// by a few degrees. The line differs from `number` to `number`.
+RowsN along_a_line(const Cell& cell, int number) {
+  constexpr int kNewtonSteps = 30;
+  constexpr double kStep_rad = 1e-6, kMostTurn_rad = 0.1;
+  ArmState nominal;
+  nominal.arm.nominal = nominal.arm.calibrated = cell.nominal;
+  nominal.X_TG.p = {0.03, 0.02, 0.12};
+  const double n = number;
+  RowsN first(1, 6);
+  first << 0.1 * n, 0.1 * n - 1.0, 0.3, 0.2, 0.6, 0.1 * n;
+  const Eigen::Vector3d middle = predict_points(nominal, first).row(0).transpose();
+  const Eigen::Vector3d way = Eigen::Vector3d(std::cos(n), std::sin(n), 0.4).normalized();
+  RowsN q(kPoses, 6);
+  for (int i = 0; i < kPoses; ++i) {
+    const double t = static_cast<double>(i) / (kPoses - 1);
+    RowsN at = i > 0 ? RowsN(q.row(i - 1)) : first;
+    at(0, 3) = 0.2 + 0.03 * std::cos(7.0 * t);
+    at(0, 4) = 0.6 + 0.03 * std::sin(5.0 * t);
+    at(0, 5) = 0.1 * n + 0.03 * std::cos(4.0 * t + 1.0);
+    for (int step = 0; step < kNewtonSteps; ++step) {
+      const Eigen::Vector3d here = predict_points(nominal, at).row(0).transpose();
+      Eigen::Matrix3d J;
+      for (int j = 0; j < 3; ++j) {
+        RowsN moved = at;
+        moved(0, j) += kStep_rad;
+        J.col(j) = (predict_points(nominal, moved).row(0).transpose() - here) / kStep_rad;
+      }
+      const Eigen::Vector3d turn = J.inverse() * (middle + 0.5 * (t - 0.5) * way - here);
+      at.leftCols<3>() += turn.cwiseMax(-kMostTurn_rad).cwiseMin(kMostTurn_rad).transpose();
+    }
+    q.row(i) = at;
+  }
+  return q;
+}
+
+/// Waves of a tenth of a milliradian at joints 2 and 4.
+RowsN with_waves(const RowsN& q) {
+  RowsN out = q;
+  for (const int joint : {1, 3})
+    for (const int k : {1, 2, 5, 11})
+      out.col(joint).array() +=
+          100e-6 / std::sqrt(k) * (k * q.col(joint).array() + joint + k).sin();
+  return out;
+}
+
 /// The arm at these poses, its lengths and angles wrong by `error` (1 sigma, [m] and [rad]).
 Measurements measured_at(const Cell& cell, const RowsN& q, std::uint64_t seed, double error) {
   std::mt19937_64 dice(seed);
@@ -95,6 +142,22 @@ Calibration fitted(const Cell& cell, const Measurements& m) {
   std::vector<int> rows(static_cast<std::size_t>(m.size()));
   std::iota(rows.begin(), rows.end(), 0);
   return calibrate(cell, m, rows);
+}
+
+/// Poses from `first` on, every second one.
+std::vector<int> every_second(int first) {
+  std::vector<int> out;
+  for (int i = first; i < kPoses; i += 2) out.push_back(i);
+  return out;
+}
+
+Cell with_series(Cell cell) {
+  cell.effects = {{"geometry", {}, {}, {}},
+                  {"joint_series",
+                   {0, 1, 2, 3, 4, 5},
+                   {{"waves", 40.0}, {"size_urad", 100.0}, {"slope", 0.5}},
+                   {}}};
+  return cell;
 }
 
 /// RMS of what is left per axis, over the noise.
@@ -152,6 +215,25 @@ TEST_P(PosesAlongAWay, AreFittedToTheNoiseEvenOfAnArmThatIsMillimetresOff) {
 INSTANTIATE_TEST_SUITE_P(All, PosesAlongAWay,
                          ::testing::Values(Way::kHelix, Way::kLineWithLittleWrist,
                                            Way::kSweepOfTwoJoints, Way::kWristAlmostStill));
+
+/// Along a line the poses say so little of the arm that its numbers wander along with the series.
+TEST(PosesAlongALine, AreFittedWithASeriesThatPredictsOtherPosesOfTheLineNoWorse) {
+  for (const int number : {2, 6}) {
+    const Cell cell = six_axis_arm();
+    const RowsN q = along_a_line(cell, number);
+    Measurements m = measured_at(cell, with_waves(q), static_cast<std::uint64_t>(number), 0.5e-3);
+    m.q = q;
+    const Measurements unseen = pick(m, every_second(1));
+    const Calibration plain = calibrate(cell, m, every_second(0));
+    const Calibration series = calibrate(with_series(cell), m, every_second(0));
+    EXPECT_GT(series.series_dof, 0.0);
+    EXPECT_LT(held_out_excess(series, unseen), 1.05 * held_out_excess(plain, unseen)) << number;
+    for (const auto& e : series.estimates)
+      if (e.of_robot) {
+        EXPECT_LT(std::abs(e.value - e.nominal), 8e-3) << e.name << ' ' << number;
+      }
+  }
+}
 
 TEST(Prior, LeavesWhatThePosesShowClearlyExactlyAsItIs) {
   Cell cell = six_axis_arm();
