@@ -501,31 +501,53 @@ double rms_m(const FitData& data, const ArmState& state) {
                    static_cast<double>(data.rows.size()));
 }
 
-/// A fit that does not converge, or not to this arm, is made once more with all its numbers held
-/// near nominal. That counts if it explains the readings as well: an arm that is another one than
-/// its cell says stays another one.
+/// A calibration, or why it is lost: it does not converge, or not to this arm.
+struct Attempt {
+  std::optional<Calibration> ended;
+  std::optional<Failure> lost;
+};
+
+Attempt attempt(const Cell& cell, const CalibrationStart& start, HeldNear held) {
+  Attempt out;
+  try {
+    out.ended = calibrated_with(cell, start, held);
+    check_same_arm(out.ended->estimates);
+  } catch (const Failure& failure) {
+    if (!is_lost(failure)) throw;
+    out.lost = failure;
+  }
+  return out;
+}
+
+/// Along a line or a curve, numbers of the arm may wander far off together with a series of waves.
+bool may_have_wandered(const Attempt& fit) {
+  return fit.lost || (has_series(fit.ended->state) && ends_far(fit.ended->estimates));
+}
+
+/// Whether a fit with all numbers held counts instead of one that may have wandered: it must stay
+/// near nominal, and explain the readings as well. An arm that is another one than its cell says
+/// stays another one.
+bool counts_instead(const Attempt& near, const Attempt& wandered, const FitData& data) {
+  if (near.lost || (!wandered.lost && ends_far(near.ended->estimates))) return false;
+  return !wandered.ended ||
+         rms_m(data, near.ended->state) <
+             (wandered.lost ? kNearlyAsGood : kAsGood) * rms_m(data, wandered.ended->state);
+}
+
+/// A fit that may have wandered is made once more with all its numbers held near nominal.
 Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                        const ArmState* start) {
   const CalibrationStart from = start_of(cell, measured, rows, start);
-  std::optional<Calibration> far;
-  std::optional<Failure> lost;
+  Attempt found = attempt(cell, from, HeldNear::kWeakDirections);
+  if (!may_have_wandered(found)) return std::move(*found.ended);
   try {
-    far = calibrated_with(cell, from, HeldNear::kWeakDirections);
-    check_same_arm(far->estimates);
-    return std::move(*far);
-  } catch (const Failure& failure) {
-    if (!is_lost(failure)) throw;
-    lost = failure;
-  }
-  try {
-    Calibration out = calibrated_with(cell, from, HeldNear::kAllDirections);
-    check_same_arm(out.estimates);
-    if (!far || rms_m(from.data, out.state) < kNearlyAsGood * rms_m(from.data, far->state))
-      return out;
+    Attempt near = attempt(cell, from, HeldNear::kAllDirections);
+    if (counts_instead(near, found, from.data)) return std::move(*near.ended);
   } catch (const Failure& failure) {
     if (failure.exit_code() != Exit::kNumbersSayNo) throw;
   }
-  throw Failure(std::move(*lost));
+  if (found.lost) throw Failure(std::move(*found.lost));
+  return std::move(*found.ended);
 }
 
 Calibration calibrated_near(const Cell& cell, const Measurements& measured,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "arm/effect_binding.hpp"
@@ -34,6 +35,11 @@ void check_same_arm(const std::vector<Estimate>& estimates) {
                                              "readings were taken",
                      .help = "find the wrong joint zero, unit, joint sign or DH convention: plumb "
                              "check"});
+}
+
+bool ends_far(const std::vector<Estimate>& estimates) {
+  return std::any_of(estimates.begin(), estimates.end(),
+                     [](const Estimate& e) { return beyond(e, kFar_m, kFar_rad); });
 }
 
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks) {

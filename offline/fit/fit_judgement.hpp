@@ -15,6 +15,9 @@ namespace plumb::offline {
 /// deg from nominal: the cell then describes another arm.
 void check_same_arm(const std::vector<Estimate>& estimates);
 
+/// Whether a parameter of the arm is more than 20 mm or 2 deg from nominal.
+bool ends_far(const std::vector<Estimate>& estimates);
+
 /// W-FIT-FAR: a parameter of the arm is more than 20 mm or 2 deg from nominal, so that the nominal
 /// value is probably wrong.
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks);

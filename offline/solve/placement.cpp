@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -84,6 +85,16 @@ bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& 
   return rms(solution.residual) * sigma > kSuspiciousStart * reach(nominal.arm.calibrated);
 }
 
+/// Whether the points lie so near a line that the errors of an arm hide how the frame is turned
+/// about it: the closed-form start, which knows no reflector yet, may then lie in another minimum
+/// that leaves little.
+bool leave_a_turn_open(const Rows3& points, const ArmState& nominal) {
+  const Rows3 centred = points.rowwise() - points.colwise().mean();
+  const Matrix3 scatter = centred.transpose() * centred / static_cast<double>(points.rows());
+  const Vector3 squares = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvalues();
+  return std::sqrt(std::max(0.0, squares(1))) < kMostMissed * reach(nominal.arm.calibrated);
+}
+
 /// Adds `more` to `found`; if that minimum is there already, the one of lower cost stays.
 void join(std::vector<Solution>& found, Solution more) {
   for (auto& one : found)
@@ -130,7 +141,7 @@ std::vector<Solution> placements_of(const FitData& data, const ArmState& nominal
   start.frame(setup) = align(points.p_B, points.p_M);
   std::vector<Solution> found;
   found.push_back(place_from(thin, start, placing, setup));
-  if (looks_wrong(thin, found.front(), nominal)) {
+  if (looks_wrong(thin, found.front(), nominal) || leave_a_turn_open(points.p_B, nominal)) {
     const FitData few = fewer(data, kTurnPoses);
     for (auto& other :
          turned_placements(few, start, points_of(few, nominal, setup), placing, setup))
