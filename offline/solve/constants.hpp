@@ -49,6 +49,9 @@ inline constexpr double kMostMissed = 0.01;
 /// A placement that leaves more than this share of the reach is tried again from other turns of the
 /// frame. An arm in good order leaves less with its nominal model. arms.
 inline constexpr double kSuspiciousStart = 0.003;
+/// The same for points along a line, as a share of what they spread across it. chosen: of lines
+/// that were placed rightly it was below 0.05, of one that was not 0.6.
+inline constexpr double kSuspiciousShare = 0.2;
 /// A placement stays in the race up to so many times the cost of the best one, three times its RMS:
 /// the errors of the arm, not yet fitted, may reverse the order. chosen.
 inline constexpr double kNotMuchWorse = 9.0;

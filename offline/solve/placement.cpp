@@ -80,19 +80,23 @@ PointPairs points_of(const FitData& data, ArmState state, int setup) {
   return {predict_points(state, some), some.p_M};
 }
 
-bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& nominal) {
-  const double sigma = data.sigma_m.row(data.rows.front()).mean();
-  return rms(solution.residual) * sigma > kSuspiciousStart * reach(nominal.arm.calibrated);
-}
-
-/// Whether the points lie so near a line that the errors of an arm hide how the frame is turned
-/// about it: the closed-form start, which knows no reflector yet, may then lie in another minimum
-/// that leaves little.
-bool leave_a_turn_open(const Rows3& points, const ArmState& nominal) {
+/// Standard deviation of the points across the line that they lie along.
+double spread_across(const Rows3& points) {
   const Rows3 centred = points.rowwise() - points.colwise().mean();
   const Matrix3 scatter = centred.transpose() * centred / static_cast<double>(points.rows());
   const Vector3 squares = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvalues();
-  return std::sqrt(std::max(0.0, squares(1))) < kMostMissed * reach(nominal.arm.calibrated);
+  return std::sqrt(std::max(0.0, squares(1)));
+}
+
+/// Whether a placement may be the wrong minimum. Of points along a line it is so at a far smaller
+/// error than else: the frame turned the wrong way about the line moves none of them by much more
+/// than they lie beside it.
+bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& nominal,
+                 const Rows3& points) {
+  const double sigma = data.sigma_m.row(data.rows.front()).mean();
+  const double limit = std::min(kSuspiciousStart * reach(nominal.arm.calibrated),
+                                kSuspiciousShare * spread_across(points));
+  return rms(solution.residual) * sigma > limit;
 }
 
 /// Adds `more` to `found`; if that minimum is there already, the one of lower cost stays.
@@ -141,7 +145,7 @@ std::vector<Solution> placements_of(const FitData& data, const ArmState& nominal
   start.frame(setup) = align(points.p_B, points.p_M);
   std::vector<Solution> found;
   found.push_back(place_from(thin, start, placing, setup));
-  if (looks_wrong(thin, found.front(), nominal) || leave_a_turn_open(points.p_B, nominal)) {
+  if (looks_wrong(thin, found.front(), nominal, points.p_B)) {
     const FitData few = fewer(data, kTurnPoses);
     for (auto& other :
          turned_placements(few, start, points_of(few, nominal, setup), placing, setup))

@@ -12,7 +12,7 @@ namespace plumb::offline {
 
 /// Where tracker and reflector may stand. Fits frame and target (the parameters among `candidates`
 /// that belong to the measurement) with the arm of `nominal`, from a closed-form start and, if its
-/// residuals look too large or the points lie along a line, from the 24 rotations of a cube.
+/// residuals look too large, from the 24 rotations of a cube.
 /// Returns the distinct minima that are not much worse than the best, the best one first. Several
 /// set-ups are placed one after the other, and then together.
 std::vector<Solution> placements(const FitData& data, const ArmState& nominal,
