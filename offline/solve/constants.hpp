@@ -49,9 +49,9 @@ inline constexpr double kMostMissed = 0.01;
 /// A placement that leaves more than this share of the reach is tried again from other turns of the
 /// frame. An arm in good order leaves less with its nominal model. arms.
 inline constexpr double kSuspiciousStart = 0.003;
-/// The same for points along a line, as a share of what they spread across it. chosen: of lines
-/// that were placed rightly it was below 0.05, of one that was not 0.6.
-inline constexpr double kSuspiciousShare = 0.2;
+/// The same for points along a line, as a share of what they spread across it. chosen: placed
+/// rightly, lines left less than 0.06 of it, placed wrongly more than 0.2.
+inline constexpr double kSuspiciousShare = 0.1;
 /// A placement stays in the race up to so many times the cost of the best one, three times its RMS:
 /// the errors of the arm, not yet fitted, may reverse the order. chosen.
 inline constexpr double kNotMuchWorse = 9.0;

@@ -92,10 +92,11 @@ double spread_across(const Rows3& points) {
 /// error than else: the frame turned the wrong way about the line moves none of them by much more
 /// than they lie beside it.
 bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& nominal,
-                 const Rows3& points) {
+                 const PointPairs& points) {
   const double sigma = data.sigma_m.row(data.rows.front()).mean();
-  const double limit = std::min(kSuspiciousStart * reach(nominal.arm.calibrated),
-                                kSuspiciousShare * spread_across(points));
+  const double limit =
+      std::min(kSuspiciousStart * reach(nominal.arm.calibrated),
+               kSuspiciousShare * std::max(spread_across(points.p_B), spread_across(points.p_M)));
   return rms(solution.residual) * sigma > limit;
 }
 
@@ -145,7 +146,7 @@ std::vector<Solution> placements_of(const FitData& data, const ArmState& nominal
   start.frame(setup) = align(points.p_B, points.p_M);
   std::vector<Solution> found;
   found.push_back(place_from(thin, start, placing, setup));
-  if (looks_wrong(thin, found.front(), nominal, points.p_B)) {
+  if (looks_wrong(thin, found.front(), nominal, points)) {
     const FitData few = fewer(data, kTurnPoses);
     for (auto& other :
          turned_placements(few, start, points_of(few, nominal, setup), placing, setup))
