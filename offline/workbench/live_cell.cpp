@@ -7,7 +7,6 @@
 #include <chrono>
 #include <set>
 
-#include "answers/answers.hpp"
 #include "figures/registry.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
@@ -267,10 +266,7 @@ Bytes LiveCell::kept(const std::string& key, const std::function<std::string()>&
 Json LiveCell::finding_of(int run) {
   Json out = nullptr;
   if (run <= 0) return out;
-  (void)problem_in([&] {
-    const RunView& of = view(run);
-    out = to_json(answers_of(*of.cell, of.measured, of.run));
-  });
+  (void)problem_in([&] { out = to_json(view(run).answers); });
   return out;
 }
 
@@ -320,10 +316,11 @@ const LiveCell::RunView& LiveCell::view(int number) {
                                      "ones",
                                      number),
                                  .help = "fit again: plumb fit"});
-  auto made = std::make_unique<RunView>(RunView{cell_, *data_, std::move(run), std::nullopt});
+  auto made = std::make_unique<RunView>(RunView{cell_, *data_, std::move(run), std::nullopt, {}});
   if (made->run.fit.base == Base::kController) stand_on_controller(*cell_, made->measured);
   made->results.emplace(
       plumb::offline::figures::results_of(*made->cell, made->measured, made->run));
+  made->answers = answers_of(*made->cell, made->measured, made->run);
   views_.push_front(std::move(made));
   if (views_.size() > kMostViews) views_.pop_back();
   return *views_.front();
@@ -334,8 +331,8 @@ Bytes LiveCell::run(int number) {
   look();
   return kept(fmt::format("run {}", number), [&] {
     const RunView& of = view(number);
-    Json out = show::fit_json(*of.cell, of.measured, of.run.fit,
-                              answers_of(*of.cell, of.measured, of.run));
+    Json out = show::fit_json(*of.cell, of.measured, of.run.fit, of.answers);
+    out["blocks"] = to_json(show::fit_blocks(*of.cell, of.measured, of.run.fit, of.answers));
     out["run"] = of.run.number;
     out["created"] = of.run.created;
     out["current"] = is_current(rows_.at(of.run.number));
@@ -346,8 +343,10 @@ Bytes LiveCell::run(int number) {
 Bytes LiveCell::poses(int number) {
   const std::lock_guard lock(mutex_);
   look();
-  return kept(fmt::format("poses {}", number),
-              [&] { return json_line(pose_columns(*view(number).results)); });
+  return kept(fmt::format("poses {}", number), [&] {
+    const RunView& of = view(number);
+    return json_line(pose_columns(*of.results, of.answers));
+  });
 }
 
 Bytes LiveCell::frames(int number, int row) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "answers/answers.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "figures/run_results.hpp"
@@ -57,6 +58,7 @@ class LiveCell {
     MeasurementFiles measured;
     Run run;
     std::optional<figures::RunResults> results;
+    Answers answers;
   };
   struct RunRow {
     std::string stamp;

@@ -6,15 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "answers/answers.hpp"
 #include "arm/arm_state.hpp"
 #include "arm/parameter.hpp"
 #include "arm/predicted_points.hpp"
-#include "compare/comparison.hpp"
 #include "compare/worst_band.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
-#include "show/compare_words.hpp"
 #include "show/verdict_json.hpp"
 
 namespace plumb::offline::workbench {
@@ -23,7 +20,6 @@ namespace {
 using figures::RunResults;
 
 constexpr double kMm = 1e3, kDeg = 180.0 / std::numbers::pi;
-constexpr int kFewest = 4;  // poses of a range of which a mean is stated
 
 /// To a millionth, which keeps the text short; null if there is no number.
 Json shown(double value) {
@@ -68,44 +64,10 @@ std::vector<std::pair<std::string, Eigen::VectorXd>> contexts_of(const ContextRo
   return out;
 }
 
-/// The quantity with which the error changes most, as `plumb compare` says, and the range of it in
-/// which the judged poses miss most; null if none matters.
-Json worst_of_profiles(const RunResults& results) {
-  const auto found = compare::comparison(results.cell, results.measured, results.run.fit);
-  const compare::ErrorProfile* most = nullptr;
-  for (const auto& profile : found.profiles)
-    if (profile.matters && (most == nullptr || profile.ln_p < most->ln_p)) most = &profile;
-  if (most == nullptr) return nullptr;
-  const compare::ErrorBin* worst = nullptr;
-  for (const auto& bin : most->bins)
-    if (bin.n >= kFewest && (worst == nullptr || bin.mean_m > worst->mean_m)) worst = &bin;
-  std::string sentence = fmt::format("The error changes most with {}", show::quantity_words(*most));
-  Json rows = Json::array();
-  if (worst != nullptr && most->unit != compare::ErrorProfile::Unit::kName)
-    sentence +=
-        fmt::format(": {:.3f} mm on average between {:.0f} and {:.0f} {} ({} poses)",
-                    kMm * worst->mean_m, std::round(show::in_unit(worst->from, most->unit)) + 0.0,
-                    std::round(show::in_unit(worst->to, most->unit)) + 0.0,
-                    show::unit_name(most->unit), worst->n);
-  const auto& joints = results.cell.nominal.joints;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (worst == nullptr || most->kind != compare::ErrorProfile::Kind::kJoint ||
-        joints[j].name != most->name)
-      continue;
-    for (const int row : results.judged()) {
-      const double q = results.measured.q(row, static_cast<Eigen::Index>(j));
-      if (q >= worst->from && q <= worst->to) rows.push_back(row);
-    }
-  }
-  return {{"sentence", sentence + "."}, {"rows", std::move(rows)}};
-}
-
-/// Null if no region is worse than chance makes it.
-Json worst_region(const RunResults& results) {
+/// Where the run fails, and the rows that lie there; no rows where no range of a joint stands out.
+Json worst_region(const RunResults& results, const std::string& where) {
   const auto band = compare::worst_band(results.cell, results.measured, results.run.fit);
-  if (!band) return worst_of_profiles(results);
-  return {{"sentence", compare::where_sentence(results.cell, results.measured, results.run.fit)},
-          {"rows", band->rows}};
+  return {{"sentence", where}, {"rows", band ? band->rows : std::vector<int>()}};
 }
 
 Json sets_of(const RunResults& results) {
@@ -134,7 +96,7 @@ std::vector<std::string> context_names(const ContextRows& rows) {
   return out;
 }
 
-Json pose_columns(const RunResults& results) {
+Json pose_columns(const RunResults& results, const Answers& answers) {
   const ArmState& state = results.run.fit.calibration.state;
   const Measurements& measured = results.measured;
   Json units = Json::array(), rows = Json::array(), context = Json::object();
@@ -155,10 +117,9 @@ Json pose_columns(const RunResults& results) {
            {"before_norm_mm", norms_mm(results.before_M)},
            {"after_norm_mm", norms_mm(results.after_M)},
            {"context", std::move(context)},
-           {"worst_region", worst_region(results)},
+           {"worst_region", worst_region(results, answers.where)},
            {"reach_mm", shown(kMm * reach(state.arm.calibrated))}};
-  show::add_verdict(results.cell, results.run.fit, answers_of(results.cell, measured, results.run),
-                    out);
+  show::add_verdict(results.cell, results.run.fit, answers, out);
   return out;
 }
 

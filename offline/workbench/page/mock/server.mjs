@@ -80,7 +80,7 @@ async function poses(run) {
   return {
     run, e: "measured - predicted, base frame [mm]", row: data.map((_, i) => i), pose: data.map((r) => r.pose), set: data.map((_, i) => (i % 5 === 0 ? "held" : "fit")),
     q, q_units: joints.map((j) => j.unit), point_mm: point, before_mm: before, after_mm: after, before_norm_mm: norm(before), after_norm_mm: norm(after), context: {},
-    worst_region: far.length ? { sentence: verdict.where ?? "Worst above 1200 mm.", rows: far } : null, reach_mm: 2300, verdict: verdict.verdict ?? "", verdict_head: verdict.verdict_head ?? "", verdict_class: verdict.verdict_class ?? "unknown",
+    worst_region: { sentence: verdict.where ?? "Worst above 1200 mm.", rows: far }, reach_mm: 2300, verdict: verdict.verdict ?? "", verdict_head: verdict.verdict_head ?? "", verdict_class: verdict.verdict_class ?? "unknown",
   };
 }
 

@@ -83,7 +83,7 @@ export interface Poses {
   after_mm: Columns3;
   before_norm_mm: (number | null)[];
   after_norm_mm: (number | null)[];
-  worst_region: { sentence: string; rows: number[] } | null;
+  worst_region: { sentence: string; rows: number[] };
   reach_mm: number | null;
   verdict: string;
   verdict_head: string;

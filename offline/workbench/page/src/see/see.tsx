@@ -61,7 +61,7 @@ export function SeeScreen() {
       {!all ? <p role="status">Computing the errors of every pose …</p> : (
         <div class="see">
           <p class="sentence">{verdict.value.sentence}</p>
-          <Card title="Where it fails" class="wide" lead={<span id="worst-region">{all.worst_region?.sentence ?? "No region is worse than the others beyond chance."}</span>}>
+          <Card title="Where it fails" class="wide" lead={<span id="worst-region">{all.worst_region.sentence}</span>}>
             <ArmView />
             <PickedPose all={all} />
           </Card>

@@ -69,7 +69,7 @@ export function ArmView() {
     if (all)
       view.current?.showPoses({
         poses: all, shown, factor, heldOnly, brushed: inside, tones: theme,
-        region: new Set(lit ? all.worst_region?.rows ?? [] : []),
+        region: new Set(lit ? all.worst_region.rows : []),
       });
   }, [all, shown, factor, heldOnly, inside, lit, theme]);
   useEffect(() => view.current?.lookFrom(eye), [eye]);
@@ -119,7 +119,7 @@ export function ArmView() {
         aria-label="The arm at the picked pose, with error arrows at the measured points. Arrow keys turn it, + and - zoom. The table of the worst poses holds the same numbers." />
       <p class="legend">
         <span class="key before" /> before <span class="key after" /> after calibration
-        {lit && all?.worst_region && <> <span class="key region" /> worst region</>}
+        {lit && (all?.worst_region.rows.length ?? 0) > 0 && <> <span class="key region" /> worst region</>}
         {" "}· one scale for both: an arrow is {factor.toLocaleString("en")} times the error, 10 mm on the grid stand for {plain(10000 / factor)} um
         {" "}· e = measured − predicted
         {drawn < of && <span role="status"> · {drawn.toLocaleString("en")} of {of.toLocaleString("en")} arrows are drawn, spread evenly, the 50 worst always</span>}
