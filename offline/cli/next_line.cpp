@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "program/shell_word.hpp"
+#include "show/block.hpp"
 
 namespace plumb::offline::cli {
 
@@ -23,8 +24,11 @@ void say_next(const Globals& globals, const std::string& words, Outcome& outcome
 
 void say_next(const Globals& globals, const std::vector<std::string>& words, Outcome& outcome) {
   std::string out;
-  for (const auto& one : words)
+  for (const auto& one : words) {
     out += (out.empty() ? "\nNext: " : "  or: ") + to_type(globals, one) + "\n";
+    if (outcome.result.contains("blocks"))
+      outcome.result["blocks"].push_back(show::to_json({action_of(one)}).front());
+  }
   outcome.text += out;
 }
 

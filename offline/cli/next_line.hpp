@@ -12,7 +12,8 @@ namespace plumb::offline::cli {
 /// -C of this call, also in further commands behind "&&", so that it works when it is pasted.
 std::string to_type(const Globals& globals, const std::string& words);
 
-/// The last lines of a verb's text: the command that helps most, and others that would do.
+/// The last lines of a verb's text, and of its blocks: the command that helps most, and others that
+/// would do.
 ///
 /// @param words  The words that follow `plumb`; the reason may follow them behind " # ".
 void say_next(const Globals& globals, const std::string& words, Outcome& outcome);

@@ -141,8 +141,9 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
   if (before && !options.dry_run) keep_what_was_found(cell, *before, found);
   outcome.result = show::diagnose_json(cell, found);
   outcome.verdicts = {{found.text, show::class_of(found.finding)}};
-  outcome.text = text_of(show::diagnosis_blocks(
-      cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst));
+  put(show::diagnosis_blocks(cell, found,
+                             options.all ? show::Candidates::kAll : show::Candidates::kFirst),
+      outcome);
   const bool kept =
       !options.apply || keep_applied(options, cell, measured, found, before_m, outcome);
   // That of a new model is there already.

@@ -215,7 +215,7 @@ void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) 
   if (floor) fitted.floor.inferred_m = floor->inferred_m;
   const Answers answers = answers_of(cell, measured, fitted, nullptr);
   outcome.result = show::fit_json(cell, measured, fitted, answers);
-  outcome.text = text_of(show::fit_blocks(cell, measured, fitted, answers));
+  put(show::fit_blocks(cell, measured, fitted, answers), outcome);
   outcome.text += jump_words(cell, measured, fitted);
   const auto& like = fitted.calibration.likeness;
   const bool alike = options.from && like && like->kind != Likeness::Kind::kUnlike;

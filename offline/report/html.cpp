@@ -63,6 +63,13 @@ std::string without_titles(const std::string& svg) {
   return out += svg.substr(from);
 }
 
+/// A bar of '#', which the numbers beside it say in words, is drawn as one.
+std::string cell_of(const std::string& text) {
+  const bool bar = !text.empty() && text.find_first_not_of('#') == std::string::npos;
+  return bar ? fmt::format("<span class=\"bar\" aria-hidden=\"true\">{}</span>", text)
+             : draw::escaped(text);
+}
+
 /// The words with line breaks where the text has them; `escaped` would make them blanks.
 std::string escaped_lines(std::string_view text) {
   std::string out;
@@ -113,7 +120,7 @@ void Html::table(const show::Table& table) {
                : i + 1 == row.size() && k < table.last_class.size()
                    ? fmt::format("<td class=\"left {}\">{}</td>", table.last_class[k],
                                  draw::escaped(row[i]))
-                   : fmt::format("<td{}>{}</td>", side(i), draw::escaped(row[i]));
+                   : fmt::format("<td{}>{}</td>", side(i), cell_of(row[i]));
     for (std::size_t i = row.size(); i < table.head.size(); ++i) text_ += "<td></td>";
     text_ += "</tr>\n";
   }

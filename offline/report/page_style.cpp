@@ -29,6 +29,7 @@ nav ol{columns:2;padding-left:1.6rem;font-size:.9rem}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums;width:100%}
 caption{text-align:left;padding:0 0 .3rem}
 th,td{padding:.2rem .6rem;text-align:right;vertical-align:top;border-bottom:1px solid var(--plumb-3)}
+.bar{color:var(--plumb-2);background:currentColor}
 thead th{border-bottom:2px solid var(--plumb-2);vertical-align:bottom}
 tbody th{font-weight:400;text-align:left}
 .left{text-align:left}

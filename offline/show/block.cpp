@@ -11,15 +11,16 @@ struct TextOf {
   std::string operator()(const Table& t) const { return text_of(t); }
   std::string operator()(const Figure&) const { return ""; }
   std::string operator()(const Note& n) const {
-    return (n.stands == Note::Stands::kUnderTable ? "  " : "") + n.words + "\n";
+    return (n.stands == Note::Stands::kUnder ? "  " : "") + n.words + "\n";
   }
   std::string operator()(const Action&) const { return ""; }
 };
 
 bool goes_on(const Block& before, const Block& next) {
   if (std::holds_alternative<Sentence>(next)) return std::holds_alternative<Sentence>(before);
+  if (const Table* const table = std::get_if<Table>(&next)) return table->goes_on;
   const Note* const note = std::get_if<Note>(&next);
-  return note != nullptr && note->stands == Note::Stands::kUnderTable;
+  return note != nullptr && note->stands != Note::Stands::kAlone;
 }
 
 struct JsonOf {
@@ -63,6 +64,11 @@ Json to_json(const Blocks& blocks) {
   Json out = Json::array();
   for (const Block& block : blocks) out.push_back(std::visit(JsonOf(), block));
   return out;
+}
+
+void put(const Blocks& blocks, Outcome& outcome) {
+  outcome.result["blocks"] = to_json(blocks);
+  outcome.text = text_of(blocks);
 }
 
 }  // namespace plumb::offline::show

@@ -8,7 +8,7 @@
 
 namespace plumb::offline::show {
 
-CsvColumns::CsvColumns(const std::vector<Table>& tables) {
+CsvColumns::CsvColumns(const std::vector<offline::Table>& tables) {
   std::vector<std::string_view> names;
   for (const auto& table : tables) {
     split_raw(table.raw_header, names);

@@ -14,7 +14,7 @@ namespace plumb::offline::show {
 /// empty there. A column of ours takes the place of an input column of the same name.
 class CsvColumns {
  public:
-  explicit CsvColumns(const std::vector<Table>& tables);
+  explicit CsvColumns(const std::vector<offline::Table>& tables);
 
   int rows() const { return rows_; }
 

@@ -210,7 +210,6 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     put_null(out, "left_over", "no noise floor is known");
   out["outliers"] = d.outliers;
   out["blocks_tried"] = d.regressors;
-  out["blocks"] = to_json(diagnosis_blocks(cell, d, Candidates::kFirst));
   return out;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "answers/after_diagnosis.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/certainty.hpp"
 #include "diagnose/effect_domain.hpp"
@@ -25,11 +24,10 @@ constexpr std::size_t kShown = 8;
 /// Of very many poses an even choice decides which effects there are.
 Blocks choosing_note(const Diagnosis& d) {
   if (d.poses_choosing >= d.poses_fit) return {};
-  return {Note{fmt::format("{} of the {} fitted poses, evenly spread, chose the effects; {}",
-                           d.poses_choosing, d.poses_fit,
-                           d.added.empty() ? "the error now is that of a fit to all"
-                                           : "the line of the last one is a fit to all"),
-               Note::Stands::kUnderTable}};
+  return {under(fmt::format("{} of the {} fitted poses, evenly spread, chose the effects; {}",
+                            d.poses_choosing, d.poses_fit,
+                            d.added.empty() ? "the error now is that of a fit to all"
+                                            : "the line of the last one is a fit to all"))};
 }
 
 Blocks steps_blocks(const Cell& cell, const Diagnosis& d) {
@@ -126,8 +124,7 @@ Blocks candidates_blocks(const Cell& cell, const Diagnosis& d, Candidates shown)
   Blocks out{shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d)};
   if (!all)
     out.emplace_back(
-        Note{fmt::format("and {} more: plumb diagnose --all", d.candidates.size() - kShown),
-             Note::Stands::kUnderTable});
+        under(fmt::format("and {} more: plumb diagnose --all", d.candidates.size() - kShown)));
   if (d.candidates.front().supported) out.emplace_back(Note{first_candidate_text(cell, d)});
   return out;
 }
@@ -169,7 +166,6 @@ Blocks diagnosis_blocks(const Cell& cell, const Diagnosis& d, Candidates shown) 
         Note{fmt::format("Left out, the others contradict {}: {}",
                          d.outliers.size() == 1 ? "it" : "them", fmt::join(d.outliers, ", "))});
   out.emplace_back(not_testable_table(d));
-  for (const auto& words : after_diagnosis(cell, d)) out.emplace_back(action_of(words));
   return out;
 }
 

@@ -10,7 +10,7 @@
 
 namespace plumb::offline::show {
 
-/// `result` of `plumb diagnose`.
+/// `result` of `plumb diagnose` but for `blocks`.
 Json diagnose_json(const Cell& cell, const Diagnosis& diagnosis);
 
 /// The class of a finding, as of the verdict of a fit.
@@ -19,8 +19,8 @@ const char* class_of(Finding finding);
 /// The first candidates in few columns, or all of them with all that is known.
 enum class Candidates { kFirst, kAll };
 
-/// Verdict, errors before and after, ranked candidates, what cannot be told apart, what these data
-/// cannot show, and what to do next.
+/// Verdict, errors before and after, ranked candidates, what cannot be told apart, and what these
+/// data cannot show.
 Blocks diagnosis_blocks(const Cell& cell, const Diagnosis& diagnosis, Candidates shown);
 
 /// Whether these poses support a candidate: "yes", "no", "no gain", "unlikely", "one of 2".

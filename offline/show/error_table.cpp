@@ -88,10 +88,10 @@ void add_interval(const MeanInterval& interval, Json& out) {
 
 Blocks folds_note(int folds, int readings) {
   if (folds == 0) return {};
-  return {Note{fmt::format("held-out: {} folds, each predicted by a model fitted without it; the "
-                           "model itself uses all {}",
-                           folds, readings),
-               Note::Stands::kUnderTable}};
+  return {
+      under(fmt::format("held-out: {} folds, each predicted by a model fitted without it; the "
+                        "model itself uses all {}",
+                        folds, readings))};
 }
 
 Table error_table(const Measurements& measured, const Fit& fit) {

@@ -67,8 +67,6 @@ Json effects_json(const Cell& cell) {
   return out;
 }
 
-Note under_table(std::string words) { return {std::move(words), Note::Stands::kUnderTable}; }
-
 Table parameter_table(const std::vector<Estimate>& estimates) {
   Table table{
       .name = "parameters",
@@ -123,7 +121,7 @@ Blocks setups_blocks(const MeasurementSettings& m, const ArmState& state,
                how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
   }
   return {std::move(table),
-          under_table("frame: base in the measurement frame; target: reflector in the tool frame")};
+          under("frame: base in the measurement frame; target: reflector in the tool frame")};
 }
 
 Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
@@ -145,16 +143,15 @@ Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
 Blocks held_note(std::vector<std::string> held) {
   std::erase_if(held, [](const std::string& name) { return name.starts_with("frame["); });
   if (held.empty()) return {};
-  return {
-      under_table(fmt::format("kept at nominal, because these poses say too little about them: {}",
-                              fmt::join(held, ", ")))};
+  return {under(fmt::format("kept at nominal, because these poses say too little about them: {}",
+                            fmt::join(held, ", ")))};
 }
 
 /// What the series of waves came to: their numbers are too many to be listed.
 Blocks series_note(const Cell& cell, const ArmState& state) {
   const std::string waves = series_words(cell, state.arm);
   if (waves.empty()) return {};
-  return {under_table("series of waves: " + waves)};
+  return {under("series of waves: " + waves)};
 }
 
 /// Where tracker and reflector stood.
@@ -165,14 +162,13 @@ Blocks measurement_blocks(const Cell& cell, const ArmState& state,
   const auto& f = state.X_MB;
   const auto& t = state.X_TG.p;
   const auto how = [](bool fitted) { return fitted ? "fitted" : "given"; };
-  return {under_table(fmt::format(
-              "frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
-              "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})",
-              how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1],
-              f.q[2], f.q[3])),
-          under_table(
-              fmt::format("target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm",
-                          how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2])))};
+  return {
+      under(fmt::format("frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
+                        "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})",
+                        how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0],
+                        f.q[1], f.q[2], f.q[3])),
+      under(fmt::format("target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm",
+                        how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2])))};
 }
 
 }  // namespace
@@ -218,7 +214,6 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
   add_verdict(cell, fit, answers, out);
-  out["blocks"] = to_json(fit_blocks(cell, measured, fit, answers));
   return out;
 }
 
@@ -229,10 +224,9 @@ Blocks arm_blocks(const Cell& cell, const Fit& fit) {
   append(out, likeness_notes(c));
   append(out, series_note(cell, c.state));
   append(out, measurement_blocks(cell, c.state, c.held));
-  if (fit.tree) out.emplace_back(under_table("tree: " + fit.tree->reason));
-  out.emplace_back(
-      under_table(fmt::format("{} numbers fitted, frame and target included; {} iterations",
-                              c.estimates.size(), c.iterations)));
+  if (fit.tree) out.emplace_back(under("tree: " + fit.tree->reason));
+  out.emplace_back(under(fmt::format("{} numbers fitted, frame and target included; {} iterations",
+                                     c.estimates.size(), c.iterations)));
   return out;
 }
 
@@ -241,7 +235,6 @@ Blocks fit_blocks(const Cell& cell, const Measurements& measured, const Fit& fit
   Blocks out{Sentence{answers.sentence, name_of(grade(fit, cell.tolerance_m))}};
   append(out, error_blocks(measured, fit));
   append(out, arm_blocks(cell, fit));
-  out.emplace_back(action_of(answers.next));
   return out;
 }
 

@@ -10,11 +10,11 @@
 
 namespace plumb::offline::show {
 
-/// `result` of `plumb fit` but for `run`.
+/// `result` of `plumb fit` but for `blocks` and `run`.
 Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
               const Answers& answers);
 
-/// Verdict, errors, the fitted arm, and what to do next.
+/// Verdict, errors, the fitted arm.
 Blocks fit_blocks(const Cell& cell, const Measurements& measured, const Fit& fit,
                   const Answers& answers);
 

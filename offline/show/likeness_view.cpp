@@ -60,10 +60,9 @@ Blocks likeness_notes(const Calibration& found) {
           run, difference(like));
   }
   return {Note{std::move(out)},
-          Note{fmt::format("frame and target included, the readings decide {:.0f} of the {} "
-                           "numbers, and the earlier run the others",
-                           found.decided, found.estimates.size()),
-               Note::Stands::kUnderTable}};
+          under(fmt::format("frame and target included, the readings decide {:.0f} of the {} "
+                            "numbers, and the earlier run the others",
+                            found.decided, found.estimates.size()))};
 }
 
 }  // namespace plumb::offline::show

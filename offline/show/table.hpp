@@ -13,6 +13,7 @@ struct Table {
   std::string name = {};     // for programs: "errors", "candidates"
   std::string caption = {};  // of a page; on a terminal only where `captioned`
   bool captioned = false;
+  bool goes_on = false;  // on a terminal: no empty line before it
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows = {};  // missing cells at the end are empty
   std::size_t left_from = std::numeric_limits<std::size_t>::max();  // from here on flush left

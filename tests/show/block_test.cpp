@@ -19,7 +19,7 @@ Blocks result() {
   return {Sentence{"Missing: J2 yields.", "bad"},
           Sentence{"Nothing was added.", ""},
           errors(),
-          Note{"held-out: 5 folds", Note::Stands::kUnderTable},
+          Note{"held-out: 5 folds", Note::Stands::kUnder},
           Figure{"evidence"},
           Note{"Hard to tell from: J3 yields."},
           Table{.name = "empty", .caption = "Nothing to see", .head = {"a"}},
@@ -55,6 +55,38 @@ TEST(Blocks, EveryMediumSaysAllThatTheOthersSay) {
             std::string::npos);
   EXPECT_EQ(text.find("Nothing to see"), std::string::npos);
   EXPECT_EQ(html.text().find("Nothing to see"), std::string::npos);
+}
+
+TEST(Blocks, WhatGoesOnStandsRightBelowWhatIsBefore) {
+  Table more = errors();
+  more.goes_on = true;
+  EXPECT_EQ(
+      text_of(Blocks{Sentence{"By what:"}, more, more, Note{"All held out.", Note::Stands::kBelow},
+                     Sentence{"Moved:"}, Note{"the tool", Note::Stands::kUnder}}),
+      "By what:\n" + text_of(more) + text_of(more) +
+          "All held out.\n"
+          "\n"
+          "Moved:\n"
+          "  the tool\n");
+}
+
+TEST(Blocks, OfAVerbAreItsTextAndItsResult) {
+  Outcome outcome;
+  outcome.result["verdict"] = "missing";
+  put(result(), outcome);
+  EXPECT_EQ(outcome.text, text_of(result()));
+  EXPECT_EQ(outcome.result["blocks"], to_json(result()));
+  EXPECT_EQ(outcome.result["verdict"], "missing");
+}
+
+TEST(Blocks, APageDrawsBarsAndNeverReadsThemAloud) {
+  Table bars{.caption = "Errors", .head = {"joint", ""}, .left_from = 1};
+  bars.add({"J#", "####"});
+  report::Html html;
+  html.table(bars);
+  EXPECT_NE(html.text().find("<span class=\"bar\" aria-hidden=\"true\">####</span>"),
+            std::string::npos);
+  EXPECT_NE(html.text().find(">J#<"), std::string::npos) << "words are no bar";
 }
 
 TEST(Blocks, AnActionIsACommandAndItsReason) {
