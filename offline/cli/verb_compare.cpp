@@ -60,12 +60,16 @@ void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   const auto comparison = compare::comparison(cell, measured, last.fit);
   const Answers answers = answers_of(cell, measured, last);
   outcome.result = show::compare_json(cell, measured, comparison, last, answers);
-  outcome.text = show::compare_text(cell, measured, comparison, last, answers);
+  show::Blocks blocks = show::compare_blocks(cell, measured, comparison, last, answers);
   if (runs.size() > 1) {
     outcome.result.update(show::runs_json(runs));
-    outcome.text =
-        show::runs_text(runs) + "\nRun " + std::to_string(last.number) + ": " + outcome.text;
+    std::string& verdict = std::get<show::Sentence>(blocks.front()).words;
+    verdict = "Run " + std::to_string(last.number) + ": " + verdict;
+    show::Blocks all = show::runs_blocks(runs);
+    append(all, std::move(blocks));
+    blocks = std::move(all);
   }
+  put(blocks, outcome);
   say_next(globals, show::after_comparison(cell, comparison, last.fit, answers), outcome);
 }
 

@@ -58,8 +58,8 @@ void runs(const Globals& globals, Outcome& outcome) {
   }
   outcome.result = show::runs_json(list);
   outcome.result["damaged"] = damaged_runs;
-  outcome.text =
-      list.empty() && !damaged_runs.empty() ? "No run can be read.\n" : show::runs_text(list);
+  outcome.text = list.empty() && !damaged_runs.empty() ? "No run can be read.\n"
+                                                       : text_of(show::runs_blocks(list));
   for (const auto& number : damaged_runs)
     outcome.text += fmt::format("{:04}: damaged, not shown\n", number.get<int>());
   if (list.size() > 1)

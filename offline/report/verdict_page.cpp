@@ -10,10 +10,8 @@
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "report/report.hpp"
-#include "show/block.hpp"
-#include "show/compare_words.hpp"
+#include "show/compare_view.hpp"
 #include "show/counted.hpp"
-#include "show/error_table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::report {
@@ -62,18 +60,9 @@ std::string fall_words(const Fit& fit) {
       mm(fit.nominal_held.mean), mm(held.mean), share >= 0.0 ? "-" : "+", std::abs(100.0 * share));
 }
 
-std::string tolerance_words(const ReportData& data) {
-  std::string out = states_tolerance(data.cell.text)
-                        ? fmt::format("The tolerance of {} mm", mm(data.cell.tolerance_m))
-                        : fmt::format("cell.toml states no tolerance, so {} mm is assumed; this",
-                                      mm(data.cell.tolerance_m));
-  if (data.run.fit.held.n == 0)
-    return out + fmt::format(" is kept at {} of the fitted readings, which is no accuracy.",
-                             percent_words(data.comparison.fit_within_tolerance));
-  return out +
-         fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm{}.",
-                     100.0 * data.comparison.within_tolerance, mm(usual_held(data.run.fit).max),
-                     without_words(data.run.fit));
+std::string assumed_words(const Cell& cell) {
+  if (states_tolerance(cell.text)) return "";
+  return fmt::format(" cell.toml states no tolerance, so {} mm is assumed.", mm(cell.tolerance_m));
 }
 
 std::string inferred_words(const NoiseFloor& floor) {
@@ -104,10 +93,12 @@ std::string floor_source_words(const NoiseFloor& floor) {
   }
 }
 
-show::Table errors(const ReportData& data) {
-  show::Table table = show::error_table(data.measured, data.run.fit);
-  table.add({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
-  return table;
+show::Blocks errors(const ReportData& data) {
+  show::Blocks out =
+      show::tolerance_blocks(data.cell, data.measured, data.comparison, data.run.fit);
+  std::get<show::Table>(out.front())
+      .add({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
+  return out;
 }
 
 std::string files_words(const MeasurementFiles& measured) {
@@ -157,11 +148,9 @@ Html verdict_page(const ReportData& data, const ReportFigures& figures) {
         "Run {} was made from another cell.toml than the present one: what this report says of the "
         "cell file is of the present one, what it says of errors and parameters is of the run.",
         data.run.number));
-  html.paragraph(fall_words(data.run.fit) + " " + tolerance_words(data));
-  for (const auto& step : data.comparison.changes.steps)
-    html.paragraph("Something may have moved during the measurement: " +
-                   show::step_words(data.cell, data.measured, step) + ".");
-  html.table(errors(data));
+  html.paragraph(fall_words(data.run.fit) + assumed_words(data.cell));
+  html.blocks(show::moved_blocks(data.cell, data.measured, data.comparison), {});
+  html.blocks(errors(data), {});
   html.paragraph(floor_source_words(data.run.fit.floor) + inferred_words(data.run.fit.floor));
   put_facts(data, html);
   figures.put(Page::kVerdict, html);

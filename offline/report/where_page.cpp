@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "compare/worst_band.hpp"
 #include "report/pages.hpp"
 #include "show/compare_view.hpp"
-#include "show/compare_words.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::report {
@@ -32,11 +28,8 @@ show::Table worst_table(const ReportData& data) {
 
 Html where_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
-  html.paragraph(compare::where_sentence(data.cell, data.measured, data.run.fit));
-  const auto& profiles = data.comparison.profiles;
-  if (std::any_of(profiles.begin(), profiles.end(), [](const auto& p) { return p.matters; }))
-    html.paragraph(show::where_words(data.comparison));
-  figures.put(Page::kWhere, html);
+  const auto put_figure = [&](const std::string&) { figures.put(Page::kWhere, html); };
+  html.blocks(show::where_blocks(data.comparison, data.answers), put_figure);
   html.table(worst_table(data));
   return html;
 }

@@ -204,7 +204,7 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   out["within_tolerance_pct"] = 100.0 * comparison.within_tolerance;
   add_verdict(cell, fit, answers, out);
   out["worst"] = worst_json(comparison);
-  out["where"] = where_words(comparison);
+  out["where"] = answers.where;
   out["by"] = profiles_json(comparison);
   out["matters"] = matters_json(comparison);
   out["joints"] = joint_shares_json(cell, comparison);

@@ -26,12 +26,12 @@ constexpr int kBarWidth = 18;
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
-std::string within_text(const Comparison& comparison, const Fit& fit, double tolerance_m) {
+std::string within_words(const Comparison& comparison, const Fit& fit, double tolerance_m) {
   if (fit.held.n == 0)
-    return fmt::format("Within the tolerance of {} mm: {} of the fitted readings.\n",
-                       mm(tolerance_m), percent(comparison.fit_within_tolerance));
+    return fmt::format("Within the tolerance of {} mm: {} of the fitted readings.", mm(tolerance_m),
+                       percent(comparison.fit_within_tolerance));
   return fmt::format(
-      "Within the tolerance of {} mm: {} of the held-out readings, {} of the fitted.\n",
+      "Within the tolerance of {} mm: {} of the held-out readings, {} of the fitted.",
       mm(tolerance_m), percent(comparison.within_tolerance),
       percent(comparison.fit_within_tolerance));
 }
@@ -52,14 +52,17 @@ std::string range_text(const ErrorProfile& profile, const compare::ErrorBin& bin
                      in_unit(bin.to, profile.unit), digits);
 }
 
-std::string profile_text(const ErrorProfile& profile, Comparison::Set set) {
+Table profile_table(const ErrorProfile& profile, Comparison::Set set) {
   double most = 0.0;
   for (const auto& bin : profile.bins) most = std::max(most, bin.mean_m);
   const bool held = set == Comparison::Set::kHeldOut;
   std::vector<std::string> header{title(profile), held ? "held-out" : "fit", "mean", ""};
   if (held) header.insert(header.end() - 1, {"fit", "mean"});
-  Table table{.head = header};
-  table.left_from = header.size() - 1;
+  Table table{.name = "profile",
+              .caption = "Mean error [mm] by " + title(profile),
+              .goes_on = true,
+              .head = header,
+              .left_from = header.size() - 1};
   const auto mean = [](int n, double value) { return n > 0 ? mm(value) : "-"; };
   for (const auto& bin : profile.bins) {
     const int bar = most > 0 ? static_cast<int>(std::lround(bin.mean_m / most * kBarWidth)) : 0;
@@ -72,66 +75,33 @@ std::string profile_text(const ErrorProfile& profile, Comparison::Set set) {
     row.emplace_back(static_cast<std::size_t>(bar), '#');
     table.add(std::move(row));
   }
-  return text_of(table);
+  return table;
 }
 
 /// The profiles that matter, the strongest first.
-std::string where_text(const Comparison& comparison) {
+std::vector<const ErrorProfile*> chosen_profiles(const Comparison& comparison) {
   std::vector<const ErrorProfile*> chosen;
   for (const auto& profile : comparison.profiles)
     if (profile.matters && profile.kind != ErrorProfile::Kind::kSetup) chosen.push_back(&profile);
   std::stable_sort(chosen.begin(), chosen.end(),
                    [](auto* a, auto* b) { return a->ln_p < b->ln_p; });
   if (chosen.size() > kProfilesShown) chosen.resize(kProfilesShown);
-  std::string out = "\n" + where_words(comparison) + "\n";
-  if (!chosen.empty())
-    out += comparison.set == Comparison::Set::kHeldOut
-               ? "Number of readings and their mean error [mm], of the held-out ones and of the "
-                 "fitted:\n"
-               : "Number of readings and their mean error [mm]:\n";
-  for (const auto* profile : chosen) out += profile_text(*profile, comparison.set);
-  return out;
-}
-
-std::string findings_text(const Cell& cell, const Measurements& measured,
-                          const Comparison& comparison, const Fit& fit) {
-  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit, fit) + "\n" +
-                    joint_words(cell, comparison) + "\n" + order_words(comparison.order) + "\n" +
-                    changes_words(comparison.changes) + "\n";
-  for (const auto& step : comparison.changes.steps)
-    out += "  " + step_words(cell, measured, step) + "\n";
-  for (const auto& drift : comparison.changes.drifts)
-    out += "  " + drift_words(cell, measured, drift) + "\n";
-  return out;
+  return chosen;
 }
 
 /// Set-ups are listed whether or not they differ: that they do not is worth knowing.
-std::string setups_text(const Comparison& comparison) {
-  for (const auto& profile : comparison.profiles)
-    if (profile.kind == ErrorProfile::Kind::kSetup)
-      return fmt::format(
-                 "\nMean error by set-up [mm]; the set-ups {}\n",
-                 profile.matters ? "differ beyond chance" : "differ no more than by chance") +
-             profile_text(profile, comparison.set);
-  return "";
-}
-
-/// A jump is called the cause only if it explains enough of the squared error. Otherwise something
-/// else is missing, and that may look like a jump where the poses change.
-std::string compare_verdict(const Cell& cell, const Measurements& measured,
-                            const Comparison& comparison, const std::string& error) {
-  const auto& steps = comparison.changes.steps;
-  if (steps.empty() || !is_clear(steps.front())) return error;
-  const double share = share_of_error(steps.front(), comparison.stats.rms,
-                                      static_cast<double>(measured.pose.size()));
-  if (!is_possible(share)) return error;
-  if (!is_cause(share))
-    return fmt::format(
-        "{}\nPossibly something moved too: {}. It would cause at most {:.0f} % of the squared "
-        "error; what else is missing may look like a jump, so diagnose first.",
-        error, step_words(cell, measured, steps.front()), std::ceil(100.0 * share));
-  return fmt::format("{}\nSomething moved during the measurement: {}.", error,
-                     step_words(cell, measured, steps.front()));
+Blocks setups_blocks(const Comparison& comparison) {
+  for (const auto& profile : comparison.profiles) {
+    if (profile.kind != ErrorProfile::Kind::kSetup) continue;
+    Table table = profile_table(profile, comparison.set);
+    table.caption =
+        fmt::format("Mean error by set-up [mm]; the set-ups {}",
+                    profile.matters ? "differ beyond chance" : "differ no more than by chance");
+    table.captioned = true;
+    table.goes_on = false;
+    return {std::move(table)};
+  }
+  return {};
 }
 
 }  // namespace
@@ -152,21 +122,74 @@ std::string after_comparison(const Cell& cell, const Comparison& comparison, con
   }
 }
 
-std::string compare_text(const Cell& cell, const Measurements& measured,
-                         const Comparison& comparison, const Run& run, const Answers& answers) {
-  const double tolerance_m = cell.tolerance_m;
-  const Table worst = worst_table(comparison);
-  return compare_verdict(cell, measured, comparison, answers.sentence) + "\n\n" +
-         text_of(error_blocks(measured, run.fit)) + within_text(comparison, run.fit, tolerance_m) +
-         setups_text(comparison) + findings_text(cell, measured, comparison, run.fit) + "\n" +
-         worst.caption + "\n" + text_of(worst) + where_text(comparison);
+Blocks tolerance_blocks(const Cell& cell, const Measurements& measured,
+                        const Comparison& comparison, const Fit& fit) {
+  Blocks out = error_blocks(measured, fit);
+  out.emplace_back(Note{within_words(comparison, fit, cell.tolerance_m), Note::Stands::kBelow});
+  return out;
+}
+
+/// A jump is called the cause only if it explains enough of the squared error. Otherwise something
+/// else is missing, and that may look like a jump where the poses change.
+Blocks moved_blocks(const Cell& cell, const Measurements& measured, const Comparison& comparison) {
+  const auto& steps = comparison.changes.steps;
+  if (steps.empty() || !is_clear(steps.front())) return {};
+  const double share = share_of_error(steps.front(), comparison.stats.rms,
+                                      static_cast<double>(measured.pose.size()));
+  if (!is_possible(share)) return {};
+  const std::string step = step_words(cell, measured, steps.front());
+  if (is_cause(share)) return {Sentence{"Something moved during the measurement: " + step + "."}};
+  return {Sentence{fmt::format(
+      "Possibly something moved too: {}. It would cause at most {:.0f} % of the squared "
+      "error; what else is missing may look like a jump, so diagnose first.",
+      step, std::ceil(100.0 * share))}};
+}
+
+Blocks pattern_blocks(const Cell& cell, const Measurements& measured, const Comparison& comparison,
+                      const Fit& fit) {
+  Blocks out = setups_blocks(comparison);
+  for (auto& words : {lack_of_fit_words(comparison.lack_of_fit, fit), joint_words(cell, comparison),
+                      order_words(comparison.order), changes_words(comparison.changes)})
+    out.emplace_back(Sentence{words});
+  for (const auto& step : comparison.changes.steps)
+    out.emplace_back(under(step_words(cell, measured, step)));
+  for (const auto& drift : comparison.changes.drifts)
+    out.emplace_back(under(drift_words(cell, measured, drift)));
+  return out;
+}
+
+Blocks where_blocks(const Comparison& comparison, const Answers& answers) {
+  Blocks out{Sentence{answers.where}, Figure{"error-map"}};
+  if (const std::string words = dependence_words(comparison); !words.empty())
+    out.emplace_back(Sentence{words});
+  const auto chosen = chosen_profiles(comparison);
+  if (!chosen.empty())
+    out.emplace_back(Sentence{comparison.set == Comparison::Set::kHeldOut
+                                  ? "Number of readings and their mean error [mm], of the held-out "
+                                    "ones and of the fitted:"
+                                  : "Number of readings and their mean error [mm]:"});
+  for (const auto* profile : chosen) out.emplace_back(profile_table(*profile, comparison.set));
+  return out;
+}
+
+Blocks compare_blocks(const Cell& cell, const Measurements& measured, const Comparison& comparison,
+                      const Run& run, const Answers& answers) {
+  Blocks out{Sentence{answers.sentence, name_of(grade(run.fit, cell.tolerance_m))}};
+  append(out, moved_blocks(cell, measured, comparison));
+  append(out, tolerance_blocks(cell, measured, comparison, run.fit));
+  append(out, pattern_blocks(cell, measured, comparison, run.fit));
+  out.emplace_back(worst_table(comparison));
+  append(out, where_blocks(comparison, answers));
+  return out;
 }
 
 Table worst_table(const Comparison& comparison) {
   const bool held = comparison.set == Comparison::Set::kHeldOut;
-  Table table{.caption = fmt::format("Worst {} readings [mm], measured - predicted in the "
+  Table table{.name = "worst",
+              .caption = fmt::format("Worst {} readings [mm], measured - predicted in the "
                                      "measurement frame",
                                      held ? "held-out" : "fitted"),
+              .captioned = true,
               .head = {"pose", "error", "dx", "dy", "dz"}};
   for (std::size_t i = 0; i < std::min(kWorstListed, comparison.poses.size()); ++i) {
     const auto& pose = comparison.poses[i];

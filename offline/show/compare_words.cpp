@@ -168,15 +168,13 @@ std::string joint_words(const Cell& cell, const compare::Comparison& found) {
       cell.nominal.joints[best->joint].name, best->rms_rad * 1e6, 100.0 * best->share, others);
 }
 
-std::string where_words(const compare::Comparison& found) {
+std::string dependence_words(const compare::Comparison& found) {
   const ErrorProfile* best = nullptr;
   for (const auto& p : found.profiles)
     if (p.matters && (best == nullptr || p.ln_p < best->ln_p)) best = &p;
-  if (best == nullptr)
-    return "Where: nowhere in particular; no quantity changes the error beyond chance.";
-  return fmt::format(
-      "Where: the error changes most with {}; it explains {:.0f} % of the differences.",
-      quantity_words(*best), 100.0 * best->explained);
+  if (best == nullptr) return "";
+  return fmt::format("The error changes most with {}; it explains {:.0f} % of the differences.",
+                     quantity_words(*best), 100.0 * best->explained);
 }
 
 std::string step_words(const Cell& cell, const Measurements& measured, const StepFound& step) {

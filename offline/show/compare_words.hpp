@@ -17,7 +17,8 @@ std::string lack_of_fit_words(const compare::LackOfFit& found, const Fit& fit);
 
 std::string order_words(const compare::Autocorrelation& found);
 std::string joint_words(const Cell& cell, const compare::Comparison& found);
-std::string where_words(const compare::Comparison& found);
+/// What the error changes with most; empty if nothing changes it beyond chance.
+std::string dependence_words(const compare::Comparison& found);
 std::string changes_words(const Changes& found);
 std::string step_words(const Cell& cell, const Measurements& measured, const StepFound& step);
 std::string drift_words(const Cell& cell, const Measurements& measured, const DriftFound& drift);

@@ -49,6 +49,23 @@ std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor) {
   return out;
 }
 
+Table error_table(const Measurements& measured, const Fit& fit) {
+  Table table{.name = "errors",
+              .caption = "Position errors, measured - predicted [mm]",
+              .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
+                       head::kRms, head::kP95, head::kMax}};
+  table.add(
+      row(fit.base == Base::kArm ? "held-out, nominal arm" : "held-out, controller's own positions",
+          fit.nominal_held));
+  if (fit.tree) table.add(row("held-out, without the tree", fit.geometry_held));
+  table.add(row("held-out, calibrated", fit.held, held_out_interval(measured, fit)));
+  if (!fit.held_outliers.empty())
+    table.add(row("  without its outliers", fit.held_without_outliers));
+  table.add(row(fit_row_name(fit), fit.fit));
+  for (auto& one : floor_rows(fit.floor)) table.add(std::move(one));
+  return table;
+}
+
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
 
 const char* source_name(NoiseFloor::Source source) {
@@ -92,23 +109,6 @@ Blocks folds_note(int folds, int readings) {
       under(fmt::format("held-out: {} folds, each predicted by a model fitted without it; the "
                         "model itself uses all {}",
                         folds, readings))};
-}
-
-Table error_table(const Measurements& measured, const Fit& fit) {
-  Table table{.name = "errors",
-              .caption = "Position errors, measured - predicted [mm]",
-              .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
-                       head::kRms, head::kP95, head::kMax}};
-  table.add(
-      row(fit.base == Base::kArm ? "held-out, nominal arm" : "held-out, controller's own positions",
-          fit.nominal_held));
-  if (fit.tree) table.add(row("held-out, without the tree", fit.geometry_held));
-  table.add(row("held-out, calibrated", fit.held, held_out_interval(measured, fit)));
-  if (!fit.held_outliers.empty())
-    table.add(row("  without its outliers", fit.held_without_outliers));
-  table.add(row(fit_row_name(fit), fit.fit));
-  for (auto& one : floor_rows(fit.floor)) table.add(std::move(one));
-  return table;
 }
 
 Blocks error_blocks(const Measurements& measured, const Fit& fit) {

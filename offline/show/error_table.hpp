@@ -17,10 +17,7 @@ namespace plumb::offline::show {
 Blocks folds_note(int folds, int readings);
 
 /// Errors of the measured positions [mm]: before and after on the held-out readings, on the fitted
-/// ones, and the noise floor.
-Table error_table(const Measurements& measured, const Fit& fit);
-
-/// The same with a note on the folds and the errors of fitted orientations [deg].
+/// ones, and the noise floor; a note on the folds, and the errors of fitted orientations [deg].
 Blocks error_blocks(const Measurements& measured, const Fit& fit);
 
 /// "0.141 .. 0.187"; empty if it is not known.

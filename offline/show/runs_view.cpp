@@ -133,9 +133,11 @@ Json runs_json(const std::vector<ListedRun>& runs) {
   return {{"runs", list}};
 }
 
-std::string runs_text(const std::vector<ListedRun>& runs) {
-  if (runs.empty()) return "No runs yet.\n";
-  Table table{.head = {head::kRun, head::kCreated, head::kReadings, head::kMean, head::kRms,
+Blocks runs_blocks(const std::vector<ListedRun>& runs) {
+  if (runs.empty()) return {Sentence{"No runs yet."}};
+  Table table{.name = "runs",
+              .caption = "Runs",
+              .head = {head::kRun, head::kCreated, head::kReadings, head::kMean, head::kRms,
                        head::kP95, head::kMax, head::kEffects}};
   table.left_from = 7;
   for (const auto& [run, state] : runs) {
@@ -144,9 +146,9 @@ std::string runs_text(const std::vector<ListedRun>& runs) {
                run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
                content_of(run)});
   }
-  return fmt::format("{}, held-out error in mm (* of the present cell and data):\n\n",
-                     counted_words(static_cast<long long>(runs.size()), "run", "runs")) +
-         text_of(table);
+  return {Sentence{fmt::format("{}, held-out error in mm (* of the present cell and data):",
+                               counted_words(static_cast<long long>(runs.size()), "run", "runs"))},
+          std::move(table)};
 }
 
 Json diff_json(const Run& a, const Run& b) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runs/run.hpp"
+#include "show/block.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {
@@ -17,7 +18,7 @@ struct ListedRun {
 
 /// {runs: [{run, created, effects, held_out, fit, ...}]}
 Json runs_json(const std::vector<ListedRun>& runs);
-std::string runs_text(const std::vector<ListedRun>& runs);
+Blocks runs_blocks(const std::vector<ListedRun>& runs);
 
 /// Parameters that changed and what it did to the held-out error.
 Json diff_json(const Run& a, const Run& b);
