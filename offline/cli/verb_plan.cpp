@@ -148,8 +148,9 @@ void plan_the_recheck(const PlanArguments& options, const Globals& globals, Outc
   outcome.result = show::recheck_plan_json(cell, found, run, measured);
   planned_file(options, show::recheck_plan_csv(cell, found, measured))
       .commit(options.write, outcome);
-  outcome.text =
-      show::recheck_plan_text(cell, found, run) + "\n" + wrote(options.output, options.write) +
+  put(show::recheck_plan_blocks(cell, found, run), outcome);
+  outcome.text +=
+      "\n" + wrote(options.output, options.write) +
       "\nMeasure these poses, then join what the tracker wrote with their joint angles.\n";
   say_next(
       globals,
@@ -171,9 +172,10 @@ void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome
   outcome.remark(found.remarks);
   outcome.result = show::plan_json(cell, request, found);
   planned_file(options, show::plan_csv(cell, request, found)).commit(options.write, outcome);
-  outcome.text = show::plan_text(request, found) + "\n" + wrote(options.output, options.write) +
-                 "\nMeasure these poses in this order. Then join what the tracker wrote with the "
-                 "joint angles of this plan, and name the new file in cell.toml.\n";
+  put(show::plan_blocks(request, found), outcome);
+  outcome.text += "\n" + wrote(options.output, options.write) +
+                  "\nMeasure these poses in this order. Then join what the tracker wrote with the "
+                  "joint angles of this plan, and name the new file in cell.toml.\n";
   say_next(globals,
            fmt::format("import tracker.txt {} --join order -o {}", shell_word(options.output),
                        shell_word(new_measurements(cell).string())),

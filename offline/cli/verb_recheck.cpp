@@ -171,7 +171,7 @@ void recheck_cell(const RecheckArguments& options, const Globals& globals, Outco
   for (int& row : found.odd_readings) row = readings.row[static_cast<std::size_t>(row)];
   note_outside(parent, rows, outcome);
   outcome.result = show::recheck_json(cell, found, parent);
-  outcome.text = show::recheck_text(cell, found, parent);
+  put(show::recheck_blocks(cell, found, parent), outcome);
   const bool decided =
       found.verdict != Recheck::Verdict::kUndecidable || (found.keeps && !found.found.empty());
   if (options.dry_run || !decided) {

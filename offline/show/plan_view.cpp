@@ -114,45 +114,48 @@ Json numbers_json(const PosePlan& plan) {
   return out;
 }
 
-std::string prediction_text(const PosePlan& plan) {
-  Table table{.head = {"1 sigma of a predicted point (3-D) [mm]", "mean", "worst"}};
+Blocks prediction_blocks(const PosePlan& plan) {
+  Table table{.name = "prediction",
+              .caption = "How well the fitted numbers predict a point",
+              .head = {"1 sigma of a predicted point (3-D) [mm]", "mean", "worst"}};
   const auto row = [&](const std::string& name, const PredictionSigma& s) {
     table.add({name, mm(s.mean), mm(s.worst)});
   };
   if (plan.measured > 0) row(fmt::format("with the {} measured", plan.measured), plan.before);
   row(fmt::format("{}these {}", plan.measured > 0 ? "and " : "with ", plan.poses.size()),
       plan.after);
-  std::string out =
-      text_of(table) +
-      "\nThat comes from the uncertainty of the fitted numbers alone; the error of what "
-      "the model lacks is added to it.\n";
+  Blocks out{std::move(table),
+             Sentence{"That comes from the uncertainty of the fitted numbers alone; the error of "
+                      "what the model lacks is added to it."}};
   if (plan.measured > 0)
-    out += fmt::format("The worst falls by {:.0f} %, the mean by {:.0f} %.\n",
-                       100.0 * (1.0 - plan.after.worst / plan.before.worst),
-                       100.0 * (1.0 - plan.after.mean / plan.before.mean));
+    out.emplace_back(Sentence{fmt::format("The worst falls by {:.0f} %, the mean by {:.0f} %.",
+                                          100.0 * (1.0 - plan.after.worst / plan.before.worst),
+                                          100.0 * (1.0 - plan.after.mean / plan.before.mean))});
   if (plan.measured > 0 && plan.before.worst < plan.sigma_m)
-    out +=
+    out.emplace_back(Sentence{
         "Measuring them changes little: the fitted numbers already predict a point better than "
-        "one reading of the tracker.\n";
+        "one reading of the tracker."});
   return out;
 }
 
-std::string contrast_text(const PosePlan& plan) {
+/// By what the two are told apart, a sentence each.
+Blocks contrast_blocks(const PosePlan& plan) {
   const auto contrasts = plan.circumstances.contrasts();
-  if (contrasts.empty()) return "They are told apart by poses alone.\n";
+  if (contrasts.empty()) return {Sentence{"They are told apart by poses alone."}};
   std::vector<std::string> words;
   for (const auto contrast : contrasts) words.push_back(contrast_words(contrast));
-  std::string out = fmt::format("They are told apart by {}.\n", fmt::join(words, "; "));
+  Blocks out{Sentence{fmt::format("They are told apart by {}.", fmt::join(words, "; "))}};
   if (loaded(plan)) {
     std::vector<std::string> kg;
     for (const auto& load : plan.circumstances.payloads)
       kg.push_back(fmt::format("{:.4g} kg", load.mass_kg));
-    out += fmt::format("Loads: {}; others: --payload 0,10.\n", fmt::join(kg, " and "));
+    out.emplace_back(
+        Sentence{fmt::format("Loads: {}; others: --payload 0,10.", fmt::join(kg, " and "))});
   }
   if (arrives(plan))
-    out +=
-        "Columns dir_jN and travel_jN: the last move of joint N, its side and size; start it at "
-        "qN less the one times the other.\n";
+    out.emplace_back(
+        Sentence{"Columns dir_jN and travel_jN: the last move of joint N, its side and size; start "
+                 "it at qN less the one times the other."});
   return out;
 }
 
@@ -165,19 +168,19 @@ int poses_that_decide(const PosePlan& plan) {
 }
 
 /// What the poses measured say already; empty: they cannot tell.
-std::string decided_text(const PlanRequest& request, const PosePlan& plan) {
+std::string decided_words(const PlanRequest& request, const PosePlan& plan) {
   if (!plan.expected.decided_already()) return {};
   const std::string &a = request.separate[0].name, &b = request.separate[1].name;
   const double lead = *plan.expected.today;
   return fmt::format(
       "Decided already: {} is ahead of {} by {:.0f} nats at the {} measured (ln of a Bayes factor; "
-      "10 decide). To tell them apart nothing more need be measured.\n",
+      "10 decide). To tell them apart nothing more need be measured.",
       lead < 0.0 ? b : a, lead < 0.0 ? a : b, std::abs(lead),
       counted_words(plan.measured, "pose", "poses"));
 }
 
 /// What the readings will say, or that they will not.
-std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
+Blocks expected_blocks(const PlanRequest& request, const PosePlan& plan) {
   const std::string &a = request.separate[0].name, &b = request.separate[1].name;
   const auto& expected = plan.expected;
   const std::string today =
@@ -187,16 +190,16 @@ std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
   const std::string these =
       plan.poses.size() == 1 ? "This reading" : fmt::format("These {} readings", plan.poses.size());
   if (expected.least() >= kDecided_nats)
-    return fmt::format(
+    return {Sentence{fmt::format(
         "{} {} expected to decide between {} and {}: the wrong one would then be "
         "behind by about {:.0f} nats (ln of a Bayes factor; 10 decide) if {} is true, by {:.0f} if "
-        "{} is.{}\n",
+        "{} is.{}",
         these, plan.poses.size() == 1 ? "is" : "are", a, b, expected.if_a, a, expected.if_b, b,
-        today);
-  std::string out = fmt::format(
+        today)}};
+  const Sentence cannot{fmt::format(
       "{} cannot decide between {} and {}: the true one is expected to be ahead by "
-      "only {:.1f} nats (ln of a Bayes factor; 10 decide) if it is {}, by {:.1f} if it is {}.{}\n",
-      these, a, b, expected.if_a, a, expected.if_b, b, today);
+      "only {:.1f} nats (ln of a Bayes factor; 10 decide) if it is {}, by {:.1f} if it is {}.{}",
+      these, a, b, expected.if_a, a, expected.if_b, b, today)};
   std::vector<std::string> could;
   if (plan.circumstances.load_matters && !loaded(plan))
     could.push_back("a second payload (--payload 0,10)");
@@ -204,26 +207,30 @@ std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
     could.push_back("a larger range (--joint-limits, --box)");
   if (const int n = poses_that_decide(plan); n > 0)
     could.push_back(fmt::format("more readings: about {} (--n)", n));
-  return out + (could.empty() ? "More poses of this kind would not help either.\n"
-                              : fmt::format("What could: {}.\n", fmt::join(could, "; ")));
+  return {cannot, Sentence{could.empty() ? "More poses of this kind would not help either."
+                                         : fmt::format("What could: {}.", fmt::join(could, "; "))}};
 }
 
-std::string numbers_text(const PosePlan& plan) {
-  Table table{.head = {"1 sigma of its numbers", "before", "after", ""}};
-  table.left_from = 3;
+Blocks numbers_blocks(const PosePlan& plan) {
+  Table table{.name = "numbers",
+              .caption = "How well the two are known",
+              .head = {"1 sigma of its numbers", "before", "after", ""},
+              .left_from = 3};
   for (std::size_t i = 0; i < std::min(kNumbersShown, plan.numbers.size()); ++i) {
     const auto& n = plan.numbers[i];
     table.add({n.name, n.before ? fmt::format("{:.3g}", *n.before) : "unknown",
                fmt::format("{:.3g}", n.after), n.unit});
   }
-  std::string out = text_of(table);
+  Blocks out{std::move(table)};
   if (plan.numbers.size() > kNumbersShown)
-    out += fmt::format("  and {} more\n", plan.numbers.size() - kNumbersShown);
+    out.emplace_back(under(fmt::format("and {} more", plan.numbers.size() - kNumbersShown)));
   return out;
 }
 
-std::string apart_text(const PlanRequest& request, const PosePlan& plan) {
-  Table table{.head = {"share of its motion that the other imitates", request.separate[0].name,
+Table apart_table(const PlanRequest& request, const PosePlan& plan) {
+  Table table{.name = "apart",
+              .caption = "How much of one the other imitates",
+              .head = {"share of its motion that the other imitates", request.separate[0].name,
                        request.separate[1].name}};
   const auto share = [](const std::optional<double>& s) {
     return s ? fmt::format("{:.0f} %", 100.0 * *s) : std::string("not shown");
@@ -233,7 +240,20 @@ std::string apart_text(const PlanRequest& request, const PosePlan& plan) {
   };
   if (plan.measured > 0) row(fmt::format("with the {} measured", plan.measured), plan.apart_before);
   row(plan.measured > 0 ? "and these" : "with these", plan.apart_after);
-  std::string out = text_of(table) + "\n" + numbers_text(plan);
+  return table;
+}
+
+Blocks separating_blocks(const PlanRequest& request, const PosePlan& plan) {
+  const std::string decided = decided_words(request, plan);
+  Blocks out;
+  if (!decided.empty()) out.emplace_back(Sentence{decided});
+  out.emplace_back(Sentence{fmt::format("Planned {} to tell {} apart.",
+                                        counted_words(plan.poses.size(), "reading", "readings"),
+                                        pair_words(request))});
+  append(out, contrast_blocks(plan));
+  if (decided.empty()) append(out, expected_blocks(request, plan));
+  out.emplace_back(apart_table(request, plan));
+  append(out, numbers_blocks(plan));
   return out;
 }
 
@@ -300,24 +320,14 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
   return out;
 }
 
-std::string plan_text(const PlanRequest& request, const PosePlan& plan) {
-  std::string out;
-  if (request.separate.empty()) {
-    out = fmt::format(
-        "Planned {}, chosen from {} random ones so that {} most about the "
-        "{} parameters.\n\n",
-        counted_words(plan.poses.size(), "pose", "poses"), plan.pool,
-        plan.poses.size() == 1 ? "it tells" : "they tell", plan.parameters);
-  } else {
-    const std::string decided = decided_text(request, plan);
-    return decided +
-           fmt::format("Planned {} to tell {} apart.\n",
-                       counted_words(plan.poses.size(), "reading", "readings"),
-                       pair_words(request)) +
-           contrast_text(plan) + (decided.empty() ? expected_text(request, plan) : "") + "\n" +
-           apart_text(request, plan);
-  }
-  return out + prediction_text(plan);
+Blocks plan_blocks(const PlanRequest& request, const PosePlan& plan) {
+  if (!request.separate.empty()) return separating_blocks(request, plan);
+  Blocks out{Sentence{
+      fmt::format("Planned {}, chosen from {} random ones so that {} most about the {} parameters.",
+                  counted_words(plan.poses.size(), "pose", "poses"), plan.pool,
+                  plan.poses.size() == 1 ? "it tells" : "they tell", plan.parameters)}};
+  append(out, prediction_blocks(plan));
+  return out;
 }
 
 }  // namespace plumb::offline::show

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plan/pose_plan.hpp"
+#include "show/block.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {
@@ -12,10 +13,10 @@ namespace plumb::offline::show {
 /// in the base frame, the side or payload where it matters, and what to do.
 std::string plan_csv(const Cell& cell, const PlanRequest& request, const PosePlan& plan);
 
-/// `result` of `plumb plan`.
+/// `result` of `plumb plan` but for `blocks`.
 Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& plan);
 
 /// What the poses will bring, in words.
-std::string plan_text(const PlanRequest& request, const PosePlan& plan);
+Blocks plan_blocks(const PlanRequest& request, const PosePlan& plan);
 
 }  // namespace plumb::offline::show

@@ -126,8 +126,10 @@ std::string undecidable_sentence(const Cell& cell, const Recheck& found, const R
       known.empty() ? "" : fmt::format(" Refitted: {}.", fmt::join(known, "; ")));
 }
 
-std::string recheck_errors_text(const Recheck& found, const Run& run) {
-  Table table{.head = {head::kPositionError, head::kReadings, head::kMean, head::kRms, head::kP95,
+Table recheck_errors_table(const Recheck& found, const Run& run) {
+  Table table{.name = "errors",
+              .caption = "Position errors, measured - predicted [mm]",
+              .head = {head::kPositionError, head::kReadings, head::kMean, head::kRms, head::kP95,
                        head::kMax}};
   const auto row = [&](const std::string& name, const ErrorStats& s) {
     table.add({name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max)});
@@ -135,12 +137,13 @@ std::string recheck_errors_text(const Recheck& found, const Run& run) {
   row(fmt::format("held-out, run {} when it was made", run.number), found.then);
   row(fmt::format("now, by run {} as it is", run.number), found.before);
   if (!found.found.empty()) row("now, refitted without the reading", found.after);
-  return text_of(table);
+  return table;
 }
 
-std::string changed_numbers_text(const Recheck& found) {
-  if (found.found.empty()) return "";
-  Table table{.head = {head::kChange, "ln Bayes", head::kParameter, "was", "is", head::kSigma, ""}};
+Table changed_numbers_table(const Recheck& found) {
+  Table table{.name = "changed",
+              .caption = "Numbers that have changed",
+              .head = {head::kChange, "ln Bayes", head::kParameter, "was", "is", head::kSigma, ""}};
   table.left_from = 6;
   for (const auto& one : found.found)
     for (std::size_t k = 0; k < one.after.size(); ++k) {
@@ -150,15 +153,17 @@ std::string changed_numbers_text(const Recheck& found) {
                  k == 0 ? fmt::format("{:.0f}", one.ln_bayes) : "", now.name, unit.text(was.value),
                  unit.text(now.value), unit.text(now.std), unit.name});
     }
-  return "\n" + text_of(table);
+  return table;
 }
 
-std::string blind_text(const Cell& cell, const std::vector<Visibility>& blind) {
-  if (blind.empty()) return "";
-  std::string out = "\nThese poses do not show, until it moves the measured point by so much:\n";
-  for (const auto& v : blind)
-    out += fmt::format("  {}: {} mm\n", words_of(v.change, cell), mm(v.unseen_m));
-  return out;
+Table blind_table(const Cell& cell, const std::vector<Visibility>& blind) {
+  Table table{.name = "not_shown",
+              .caption = "These poses do not show, until it moves the measured point by so much:",
+              .captioned = true,
+              .head = {"change", "from"},
+              .as_lines = true};
+  for (const auto& v : blind) table.add({words_of(v.change, cell), mm(v.unseen_m) + " mm"});
+  return table;
 }
 
 Json changed_part_json(const Cell& cell, const recheck::Change& change) {
@@ -285,20 +290,20 @@ Json recheck_json(const Cell& cell, const Recheck& found, const Run& run) {
   return out;
 }
 
-std::string recheck_text(const Cell& cell, const Recheck& found, const Run& run) {
-  std::string out = recheck_sentence(cell, found, run) + "\n\n" + recheck_errors_text(found, run) +
-                    changed_numbers_text(found);
+Blocks recheck_blocks(const Cell& cell, const Recheck& found, const Run& run) {
+  Blocks out{Sentence{recheck_sentence(cell, found, run), class_of(cell, found)},
+             recheck_errors_table(found, run), changed_numbers_table(found)};
   for (const auto& one : found.found)
     if (const auto open = open_words(cell, one);
         !open.empty() && found.verdict == Recheck::Verdict::kChanged)
-      out += fmt::format(
-          "\nNot ruled out instead of {}: {}. The measured point moves alike either way.\n",
-          words_of(one.change, cell), fmt::join(open, ", "));
-  return out + blind_text(cell, found.blind) +
-         fmt::format(
-             "\nA check like this finds a change where there is none in at most {:.0f} of 100 "
-             "cases.\n",
-             100.0 * recheck::kFalseAlarm);
+      out.emplace_back(Note{
+          fmt::format("Not ruled out instead of {}: {}. The measured point moves alike either way.",
+                      words_of(one.change, cell), fmt::join(open, ", "))});
+  out.emplace_back(blind_table(cell, found.blind));
+  out.emplace_back(Note{fmt::format(
+      "A check like this finds a change where there is none in at most {:.0f} of 100 cases.",
+      100.0 * recheck::kFalseAlarm)});
+  return out;
 }
 
 Json recheck_plan_json(const Cell& cell, const RecheckPlan& plan, const Run& run,
@@ -321,17 +326,18 @@ Json recheck_plan_json(const Cell& cell, const RecheckPlan& plan, const Run& run
   return out;
 }
 
-std::string recheck_plan_text(const Cell& cell, const RecheckPlan& plan, const Run& run) {
-  Table table{.head = {"change that they show", "from [mm]"}};
+Blocks recheck_plan_blocks(const Cell& cell, const RecheckPlan& plan, const Run& run) {
+  Table table{.name = "shows",
+              .caption = "Changes that these poses show",
+              .head = {"change that they show", "from [mm]"}};
   for (const auto& v : plan.visible) table.add({words_of(v.change, cell), mm(v.unseen_m)});
-  return fmt::format(
-             "Planned {} best what has changed since run {}.\n"
-             "The second column is the motion of the measured point (RMS) from which on a change "
-             "is found nearly always.\n\n",
-             counted_words(plan.rows.size(), "pose to measure again, which tells",
-                           "poses to measure again, which tell"),
-             run.number) +
-         text_of(table);
+  return {Sentence{fmt::format("Planned {} best what has changed since run {}.",
+                               counted_words(plan.rows.size(), "pose to measure again, which tells",
+                                             "poses to measure again, which tell"),
+                               run.number)},
+          Sentence{"The second column is the motion of the measured point (RMS) from which on a "
+                   "change is found nearly always."},
+          std::move(table)};
 }
 
 std::string recheck_plan_csv(const Cell& cell, const RecheckPlan& plan, const Measurements& own) {

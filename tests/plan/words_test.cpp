@@ -14,7 +14,7 @@ PlanRequest of_two() {
   return out;
 }
 
-std::string said(const PosePlan& plan) { return show::plan_text(of_two(), plan); }
+std::string said(const PosePlan& plan) { return text_of(show::plan_blocks(of_two(), plan)); }
 
 TEST(PlanWords, PromiseNothingWhereThePosesMeasuredDecideAlready) {
   PosePlan plan;
