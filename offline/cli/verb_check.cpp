@@ -61,7 +61,7 @@ void check(const CheckArguments& options, const Globals& globals, Outcome& outco
   const Check found = check_cell(cell, measured);
   outcome.result = show::check_json(cell, found);
   outcome.verdicts = {show::check_verdict(found)};
-  outcome.text = show::check_text(cell, found);
+  put(show::check_blocks(cell, found), outcome);
   hand_over(found, outcome);
   if (options.fix) fix(options, cell, measured, found, outcome);
   const bool to_fix = can_be_fixed(found) && !options.fix;

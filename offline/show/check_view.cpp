@@ -20,11 +20,18 @@ std::string residual(double metres, double size) {
   return metres < size ? fmt::format("{:.3f}", to_mm(metres)) : "no fit";
 }
 
-std::string readings_text(const Cell& cell, const Detection& d) {
-  if (!d.why_not.empty()) return "  conventions not checked: " + d.why_not + "\n";
+Blocks readings_blocks(const Cell& cell, const Detection& d) {
+  Table table{.name = "readings",
+              .caption = "How the files can be read",
+              .head = {"placed [mm]", "fitted [mm]", "how the files are read"},
+              .left_from = 2};
+  if (!d.why_not.empty()) {
+    table.head = {"", "why"};
+    table.as_lines = true;
+    table.add({"conventions not checked", d.why_not});
+    return {std::move(table)};
+  }
   const Convention& labels = d.present.convention;
-  Table table{.head = {"placed [mm]", "fitted [mm]", "how the files are read"}};
-  table.left_from = 2;
   std::vector<Interpretation> rows = d.table;
   const auto is_best = [&](const Interpretation& r) { return r.convention == d.best.convention; };
   std::stable_partition(rows.begin(), rows.end(), is_best);
@@ -47,17 +54,20 @@ std::string readings_text(const Cell& cell, const Detection& d) {
     table.add({residual(r.placed_m, r.size_m), residual(r.fitted_m, r.size_m),
                (is_best(r) ? "best: " : "") + name});
   }
-  return text_of(table) + fmt::format("  {} ways to read the files tried{}\n", d.tried,
-                                      hidden == 0
-                                          ? ""
-                                          : fmt::format("; {} more name the same arm, mirrored "
-                                                        "or counted otherwise",
-                                                        hidden));
+  return {
+      std::move(table),
+      under(fmt::format(
+          "{} ways to read the files tried{}", d.tried,
+          hidden == 0 ? ""
+                      : fmt::format("; {} more name the same arm, mirrored or counted otherwise",
+                                    hidden)))};
 }
 
-std::string coverage_text(const Cell& cell, const Coverage& coverage) {
-  Table table{.head = {"joint", "used", "", "limits", "share", ""}};
-  table.left_from = 5;
+Blocks coverage_blocks(const Cell& cell, const Coverage& coverage) {
+  Table table{.name = "coverage",
+              .caption = "What the poses cover",
+              .head = {"joint", "used", "", "limits", "share", ""},
+              .left_from = 5};
   for (std::size_t j = 0; j < coverage.joints.size(); ++j) {
     const auto& c = coverage.joints[j];
     const bool length = slides(cell.nominal.joints[j]);
@@ -71,22 +81,24 @@ std::string coverage_text(const Cell& cell, const Coverage& coverage) {
   for (int k = 0; k < 3; ++k)
     box += fmt::format("{}{} {:.0f} .. {:.0f}", k > 0 ? ", " : "", "xyz"[k],
                        to_mm(coverage.box_min[k]), to_mm(coverage.box_max[k]));
-  return text_of(table) + fmt::format("  {}, {}; reflector in the base frame: {} mm\n",
-                                      counted_words(coverage.poses, "pose", "poses"),
-                                      counted_words(coverage.readings, "reading", "readings"), box);
+  return {std::move(table),
+          under(fmt::format("{}, {}; reflector in the base frame: {} mm",
+                            counted_words(coverage.poses, "pose", "poses"),
+                            counted_words(coverage.readings, "reading", "readings"), box))};
 }
 
-std::string noise_text(const Check& check) {
+Blocks noise_notes(const Check& check) {
   const auto& f = check.floor;
-  std::string out = "  noise: unknown\n";
-  if (f.source != NoiseFloor::Source::kNone)
-    out =
-        fmt::format("  noise: {:.1f} um per axis, {}\n", f.sigma_m * 1e6,
-                    f.source == NoiseFloor::Source::kRepeats ? "from repeated poses" : "as stated");
+  Blocks out{
+      under(f.source == NoiseFloor::Source::kNone
+                ? "noise: unknown"
+                : fmt::format("noise: {:.1f} um per axis, {}", f.sigma_m * 1e6,
+                              f.source == NoiseFloor::Source::kRepeats ? "from repeated poses"
+                                                                       : "as stated"))};
   if (check.rounding)
-    out += fmt::format("  joint readings are multiples of {:g} {}: {:.2g} mm at the tool\n",
-                       check.rounding->step_in_unit, check.rounding->unit,
-                       to_mm(check.rounding->at_tool_m));
+    out.emplace_back(under(fmt::format(
+        "joint readings are multiples of {:g} {}: {:.2g} mm at the tool",
+        check.rounding->step_in_unit, check.rounding->unit, to_mm(check.rounding->at_tool_m))));
   return out;
 }
 
@@ -94,40 +106,50 @@ const char* condition_words(double condition) {
   return condition < kGoodCondition ? "well" : condition < kFairCondition ? "fairly" : "poorly";
 }
 
-std::string parameters_text(const IdentifiabilityReport& p) {
-  std::string out = fmt::format(
-      "  {} numbers fitted, of {} candidates; these poses show them {} (condition "
-      "{:.3g})\n",
+/// What the poses tell of the numbers, a line each.
+Table parameters_lines(const IdentifiabilityReport& p) {
+  Table table{.name = "identifiability",
+              .caption = "What these poses tell apart",
+              .head = {"numbers that are fitted"},
+              .as_lines = true};
+  table.add({fmt::format(
+      "{} numbers fitted, of {} candidates; these poses show them {} (condition {:.3g})",
       p.calibration.estimates.size(), p.candidates, condition_words(p.scaled_condition),
-      p.scaled_condition);
+      p.scaled_condition)});
   int choices = 0;
   for (const auto& s : p.separations) {
     if (s.cause == Separation::Cause::kChoice)
       ++choices;
     else
-      out += "  " + s.text + "\n";
+      table.add({s.text});
   }
   if (choices > 0)
-    out += fmt::format(
-        "  {} more only say where base and tool frame are placed, which is free: no harm\n",
-        choices);
-  return out;
+    table.add({fmt::format(
+        "{} more only say where base and tool frame are placed, which is free: no harm", choices)});
+  return table;
 }
 
-/// The testable effects on one line; for the others, why they are not and what to measure.
-std::string effects_text(const std::vector<Testable>& effects) {
-  std::string yes, weakly, no;
-  for (const auto& e : effects) {
-    const std::string why = fmt::format("  {}: {}{}\n", e.effect, e.why,
-                                        e.measure.empty() ? "" : "; measure " + e.measure);
+Table effects_table(const std::vector<Testable>& effects, Testable::Answer answer, const char* name,
+                    const char* caption) {
+  Table table{.name = name,
+              .caption = caption,
+              .captioned = true,
+              .head = {"effect", "why", "measure"},
+              .left_from = 1,
+              .as_lines = true};
+  for (const auto& e : effects)
+    if (e.answer == answer) table.add({e.effect, e.why, e.measure});
+  return table;
+}
+
+/// The testable effects in one sentence; for the others, why they are not and what to measure.
+Blocks effects_blocks(const std::vector<Testable>& effects) {
+  std::string yes;
+  for (const auto& e : effects)
     if (e.answer == Testable::Answer::kYes) yes += (yes.empty() ? "" : ", ") + e.effect;
-    if (e.answer == Testable::Answer::kWeakly) weakly += why;
-    if (e.answer == Testable::Answer::kNo) no += why;
-  }
-  std::string out = "These data can show: " + (yes.empty() ? "no effect" : yes) + "\n";
-  if (!weakly.empty()) out += "\nThey can show weakly\n" + weakly;
-  if (!no.empty()) out += "\nThey cannot show\n" + no;
-  return out;
+  return {Sentence{"These data can show: " + (yes.empty() ? "no effect" : yes)},
+          effects_table(effects, Testable::Answer::kWeakly, "weakly", "They can show weakly"),
+          effects_table(effects, Testable::Answer::kNo, "not_testable", "They cannot show")};
 }
 
 Grade grade_of(Usability usable) {
@@ -142,11 +164,16 @@ Verdict check_verdict(const Check& check) {
   return {words.substr(0, words.find_first_of(":,")), name_of(grade_of(usability(check)))};
 }
 
-std::string check_text(const Cell& cell, const Check& check) {
-  std::string out = verdict(check) + "\n\n" + readings_text(cell, check.detection) + "\n";
-  if (check.coverage) out += coverage_text(cell, *check.coverage) + noise_text(check) + "\n";
-  if (check.parameters) out += parameters_text(*check.parameters) + "\n";
-  return out + effects_text(check.effects);
+Blocks check_blocks(const Cell& cell, const Check& check) {
+  Blocks out{Sentence{verdict(check), check_verdict(check).found}};
+  append(out, readings_blocks(cell, check.detection));
+  if (check.coverage) {
+    append(out, coverage_blocks(cell, *check.coverage));
+    append(out, noise_notes(check));
+  }
+  if (check.parameters) out.emplace_back(parameters_lines(*check.parameters));
+  append(out, effects_blocks(check.effects));
+  return out;
 }
 
 }  // namespace plumb::offline::show
