@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from "preact/hooks";
 import { resultOf, task } from "../jobs";
-import { plain, withMm } from "../numbers";
+import { plain } from "../numbers";
 import { Action } from "../parts/action";
+import { Blocks } from "../parts/blocks";
 import { Card, Scroll } from "../parts/card";
+import type { Blocks as All } from "../types";
 
 interface Plan {
   n: number;
   poses: Record<string, string | number>[];
-  before?: { mean_mm: number } | null;
-  after?: { mean_mm: number };
+  blocks: All;
 }
 
 const kFile = "plan.csv";
@@ -24,7 +25,7 @@ export function PlanCard() {
       <Action purpose="plan" verb="plan" args={["--n", String(n), "-o", kFile, "--force"]}>Plan {n} poses</Action>
       {plan && !task("plan").value.busy && (
         <>
-          {plan.before && plan.after && <p>1 sigma of a predicted point: {withMm(plan.before.mean_mm)} now, {withMm(plan.after.mean_mm)} after these poses.</p>}
+          <Blocks of={plan.blocks} />
           <p><a href={`/api/files/${kFile}`} download={kFile}>Save {kFile}</a></p>
           <Scroll label="Planned poses">
             <table>
