@@ -300,8 +300,7 @@ TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
     RtProgram run({"run", folder.folder.string()}, folder.folder);
     Json link;
     EXPECT_TRUE(becomes([&] {
-      Json said =
-          plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json();
+      Json said = plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json();
       link = said.is_object() && said["result"].is_object() ? said["result"]["link"] : Json();
       return link.is_object() && link["packing"] != "";
     }));
