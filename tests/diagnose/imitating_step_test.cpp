@@ -75,7 +75,7 @@ TEST_F(ImitatingSteps, WhatIsNoStepOrWasGivenStays) {
 TEST_F(ImitatingSteps, AStepBesideAJointThatSwingsElsewhereStays) {
   BlindCase blind = moving(swings);
   Measurements& m = blind.measured.measured;
-  for (Eigen::Index i = kPoses / 2; i < m.q.rows(); ++i) m.q(i, 1) -= 3e-4;
+  for (Eigen::Index i = kPoses / 2; i < m.q.rows(); ++i) m.q(i, 1) -= 1e-4;
   EffectEntry slip = slip_at(40);
   slip.joints = {1};
   Selection s = having_added(blind, {slip});

@@ -56,13 +56,16 @@ TEST_F(RippleScan, FindsSeveralWavesAndNoOthers) {
   for (const double wave : waves) EXPECT_TRUE(has(found.cycles, wave, 0.1)) << wave;
 }
 
-TEST_F(RippleScan, ThePickedWavesCanBeToldApartByTheRange) {
-  const WhitenedFit s = rippled({10.0, 10.6, 11.2, 30.0}, 3.0);
-  const Ripples found = scanned(s);
-  const double whole_wave = 2.0 * M_PI / travel_of(s, kJoint);
+/// Waves between the steps of the grid invite to take two neighbours for each of them.
+TEST_F(RippleScan, ThePickedWavesAreNoNeighboursOnTheGrid) {
+  const auto grid = ripple_grid(arm, kJoint);
+  const double step = grid.at(1) - grid.at(0);
+  const double near = grid.at(10) + 0.5 * step;
+  const Ripples found = scanned(rippled({near, near + step, near + 20.0 * step}, 6.0));
+  EXPECT_GE(found.cycles.size(), 2U);
   for (std::size_t a = 0; a < found.cycles.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      EXPECT_GT(std::abs(found.cycles[a] - found.cycles[b]), 0.5 * whole_wave);
+      EXPECT_GT(std::abs(found.cycles[a] - found.cycles[b]), 1.5 * step);
 }
 
 TEST_F(RippleScan, OfNothingButNoiseIsOneWaveThatDoesNotPay) {

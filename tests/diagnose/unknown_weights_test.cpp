@@ -47,6 +47,7 @@ TEST_F(RivalsUnderUnknownWeights, TheLawThatIsThereIsAmongTheRivalsOfOneThatImit
   const auto rivals = rivals_under_unknown_weights(s, first);
   EXPECT_TRUE(names(rivals, base.name));
   for (const Found& rival : rivals) EXPECT_NE(rival.entry.name, joint.name);
+  ASSERT_FALSE(rivals.empty());
   EXPECT_GT(rivals.front().ln_bayes(), first.ln_bayes()) << "it is explained better";
 }
 
