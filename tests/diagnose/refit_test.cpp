@@ -87,10 +87,10 @@ TEST_F(Refitted, OfTheSameEffectsIsTheSameFit) {
 TEST_F(Refitted, NearbyNeverTakesBackAPoseThatWasLeftOutAndFitsTheSameGeometry) {
   ASSERT_FALSE(first->outliers.empty());
   const Calibration near = with({gear(1), gear(2)}, Refit::kNearby);
-  std::set<Eigen::Index> left_out;
-  for (const Outlier& outlier : near.outliers) left_out.insert(outlier.row);
+  std::set<Eigen::Index> out_near;
+  for (const Outlier& outlier : near.outliers) out_near.insert(outlier.row);
   for (const Outlier& outlier : first->outliers)
-    EXPECT_TRUE(left_out.contains(outlier.row)) << outlier.row;
+    EXPECT_TRUE(out_near.contains(outlier.row)) << outlier.row;
   const auto geometry = [](const Calibration& fit) {
     std::vector<std::string> out;
     for (const Parameter& p : fit.parameters)
