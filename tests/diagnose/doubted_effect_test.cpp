@@ -65,8 +65,8 @@ TEST(DoubtedEffect, ARightEffectStays) {
 TEST(DoubtedEffect, OneThatStandsForTwoOthersIsReplacedByBoth) {
   const BlindCase blind = uneven_arm({1, 2});
   int replaced = 0;
-  for (const EffectEntry& wrong : {entry_of("joint_compliance", {1}), entry_of("link_flexure", {1}),
-                                   entry_of("base_compliance")}) {
+  for (const EffectEntry& wrong :
+       {entry_of("joint_compliance", {1}), entry_of("base_compliance")}) {
     Selection s = having_added(blind, {wrong});
     if (!revise(s, kDoubt)) continue;
     ++replaced;
