@@ -44,8 +44,10 @@ class Ur10Diagnosis : public ::testing::Test {
     const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     std::printf("%s, seed %ld, %.1f s of processor: %s\n  %s\n", series, seed, seconds,
                 d.text.c_str(), d.text_after.c_str());
-    // Single waves, one after the other, took 40 s and 166 s; the series takes 12 s and 80 s.
-    EXPECT_LT(seconds, 150.0 * std::max(slower, tests::times_slower()));
+    // On a quiet machine 12 s and 80 s. Its dense products wait for the memory, which other
+    // programs share: beside a build they took 24 s and 225 s, of which the yardstick, which sorts
+    // what a cache holds, shows a part only. So this notices a search several times as long.
+    EXPECT_LT(seconds, 400.0 * std::max(slower, tests::times_slower()));
     return d;
   }
   /// One series for all gears, J2's among them, in place of dozens of single waves.
