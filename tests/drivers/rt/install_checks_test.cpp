@@ -38,7 +38,7 @@ class InstallChecks : public testing::Test {
     return tests::problem_of(
         [&] { refuse_older(request(), made, id, before(std::string(16, 'c'), newest)); });
   }
-  const tests::Placed placed;
+  tests::Placed placed;
 };
 
 /// Times, oldest first; a folder that does not say when it was made is older than all that do.

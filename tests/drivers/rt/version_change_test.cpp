@@ -54,7 +54,7 @@ class VersionChanges : public testing::Test {
     return (fs::absolute(placed.place.version(id)) / "robot.plumb").string();
   }
 
-  const tests::Placed placed;
+  tests::Placed placed;
   std::string first, second, third;
 };
 
