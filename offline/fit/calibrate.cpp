@@ -13,14 +13,14 @@
 #include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
+#include "fit/calibration_covariance.hpp"
 #include "fit/constants.hpp"
 #include "fit/fit_judgement.hpp"
+#include "fit/held_fit.hpp"
 #include "fit/likeness_judgement.hpp"
 #include "fit/pose_sense.hpp"
 #include "fit/unknown_numbers.hpp"
 #include "noise/weights.hpp"
-#include "numbers/spectrum.hpp"
-#include "numbers/triangle.hpp"
 #include "program/file.hpp"
 #include "solve/constants.hpp"
 #include "solve/descent.hpp"
@@ -46,26 +46,6 @@ namespace {
 constexpr Identifiability kCoarse{.min_independent_share = kCoarseIndependence, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = kIndependence, .max_std = 1.0};
 constexpr Identifiability kRank{.min_independent_share = kIndependence};
-
-/// (J^T J)^-1, computed by QR of the Jacobian with columns of unit length.
-Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
-  const Eigen::VectorXd scale = per_norm(J);
-  const Eigen::MatrixXd R_inverse = upper_solved(householder_triangle(J * scale.asDiagonal()),
-                                                 Eigen::MatrixXd::Identity(J.cols(), J.cols()));
-  const Eigen::MatrixXd half = scale.asDiagonal() * R_inverse;
-  return (half * half.transpose()).selfadjointView<Eigen::Lower>();
-}
-
-/// cond_2(J^T J) of the robot parameters, in SI.
-double calibrability(const Eigen::MatrixXd& information, const std::vector<Parameter>& parameters) {
-  std::vector<Eigen::Index> robot;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].of_robot()) robot.push_back(static_cast<Eigen::Index>(i));
-  if (robot.empty()) return 0.0;
-  const Eigen::MatrixXd part = information(robot, robot);
-  const Eigen::VectorXd w = jacobi_singular_values(part);
-  return w(w.size() - 1) > 0 ? w(0) / w(w.size() - 1) : 0.0;
-}
 
 ArmState nominal_state(const Cell& cell, const Measurements& measured) {
   ArmState state;
@@ -161,35 +141,6 @@ KnownArm pinned(KnownArm arm) {
   return arm;
 }
 
-/// Covariance of all parameters. That of the numbers in `arm` is given. The others are estimated
-/// from the readings for each value of these, so that their covariance follows by propagation.
-Eigen::MatrixXd covariance_with(const KnownArm& arm, const Eigen::MatrixXd& J,
-                                const std::vector<Parameter>& parameters) {
-  std::vector<Eigen::Index> known, in_arm, others;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto at = std::find(arm.names.begin(), arm.names.end(), parameters[i].name);
-    const auto place = static_cast<Eigen::Index>(i);
-    if (at == arm.names.end()) {
-      others.push_back(place);
-    } else {
-      known.push_back(place);
-      in_arm.push_back(at - arm.names.begin());
-    }
-  }
-  const auto count = static_cast<Eigen::Index>(parameters.size());
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, count);
-  out(known, known) = arm.covariance(in_arm, in_arm);
-  if (others.empty()) return out;
-  const Eigen::MatrixXd free = J(Eigen::all, others);
-  const Eigen::MatrixXd inverse = inverse_information(free);
-  const Eigen::MatrixXd follows = -inverse * (free.transpose() * J(Eigen::all, known));
-  const Eigen::MatrixXd cross = follows * out(known, known);
-  out(others, known) = cross;
-  out(known, others) = cross.transpose();
-  out(others, others) = inverse + cross * follows.transpose();
-  return out;
-}
-
 Calibration summary(const FitData& data, const ArmState& nominal, const Solution& solution,
                     const ParameterSubset& subset) {
   const auto count = static_cast<Eigen::Index>(subset.kept.size());
@@ -259,10 +210,6 @@ std::vector<Outlier> outliers_of_known_arm(CoarseFit& coarse) {
   coarse.data.rows = alike.rows;
   return out;
 }
-
-/// Which numbers of the arm a fit holds near nominal: those that the poses hardly show; or all,
-/// where the fit is lost otherwise.
-enum class HeldNear { kWeakDirections, kAllDirections };
 
 WeakDirections held_directions(const FitData& data, const ArmState& state,
                                const std::vector<Parameter>& parameters, HeldNear held) {
@@ -469,18 +416,20 @@ CalibrationStart start_of(const Cell& cell, const Measurements& measured,
 }
 
 /// A calibration that may have ended in another arm: check_same_arm tells.
-Calibration calibrated_with(const Cell& cell, CalibrationStart start, HeldNear held) {
+Calibration calibrated_with(const Cell& cell, const CalibrationStart& start, HeldNear held) {
+  std::vector<ArmState> states = start.states;
+  std::vector<Parameter> candidates = start.candidates;
   std::vector<Problem> remarks;
-  CoarseFit coarse = coarse_from_any(start.even, start.states, start.candidates, held, remarks);
+  CoarseFit coarse = coarse_from_any(start.even, states, candidates, held, remarks);
   const auto open = reflector_left_open(start.data, start.unknown, coarse.subset.held);
   if (!open.empty()) {
-    for (auto& state : start.states) state = with_reflector_of(*cell.fit.earlier, state, open);
-    std::erase_if(start.candidates, [&](const Parameter& p) { return holds(open, p.name); });
+    for (auto& state : states) state = with_reflector_of(*cell.fit.earlier, state, open);
+    std::erase_if(candidates, [&](const Parameter& p) { return holds(open, p.name); });
     remarks = {reflector_as_earlier(*cell.fit.earlier, open)};
-    coarse = coarse_from_any(start.even, start.states, start.candidates, held, remarks);
+    coarse = coarse_from_any(start.even, states, candidates, held, remarks);
   }
   check_placed_by_poses(start.data, start.unknown, coarse.subset.held);
-  Calibration out = refined(cell, start.data, std::move(coarse), start.candidates, held);
+  Calibration out = refined(cell, start.data, std::move(coarse), candidates, held);
   const auto& redundant = start.unknown.redundant;
   out.held.insert(out.held.end(), redundant.begin(), redundant.end());
   for (const auto& p : open) out.held.push_back(p.name);
@@ -490,64 +439,11 @@ Calibration calibrated_with(const Cell& cell, CalibrationStart start, HeldNear h
   return out;
 }
 
-bool is_lost(const Failure& failure) {
-  const std::string& code = failure.problems().front().code;
-  return code == "E-FIT-CONVERGE" || code == "E-FIT-FAR";
-}
-
-double rms_m(const FitData& data, const ArmState& state) {
-  const Measurements some = pick(*data.measured, data.rows);
-  return std::sqrt(residuals(some, predict_points(state, some)).squaredNorm() /
-                   static_cast<double>(data.rows.size()));
-}
-
-/// A calibration, or why it is lost: it does not converge, or not to this arm.
-struct Attempt {
-  std::optional<Calibration> ended;
-  std::optional<Failure> lost;
-};
-
-Attempt attempt(const Cell& cell, const CalibrationStart& start, HeldNear held) {
-  Attempt out;
-  try {
-    out.ended = calibrated_with(cell, start, held);
-    check_same_arm(out.ended->estimates);
-  } catch (const Failure& failure) {
-    if (!is_lost(failure)) throw;
-    out.lost = failure;
-  }
-  return out;
-}
-
-/// Along a line or a curve, numbers of the arm may wander far off together with a series of waves.
-bool may_have_wandered(const Attempt& fit) {
-  return fit.lost || (has_series(fit.ended->state) && ends_far(fit.ended->estimates));
-}
-
-/// Whether a fit with all numbers held counts instead of one that may have wandered: it must stay
-/// near nominal, and explain the readings as well. An arm that is another one than its cell says
-/// stays another one.
-bool counts_instead(const Attempt& near, const Attempt& wandered, const FitData& data) {
-  if (near.lost || (!wandered.lost && ends_far(near.ended->estimates))) return false;
-  return !wandered.ended ||
-         rms_m(data, near.ended->state) <
-             (wandered.lost ? kNearlyAsGood : kAsGood) * rms_m(data, wandered.ended->state);
-}
-
-/// A fit that may have wandered is made once more with all its numbers held near nominal.
 Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                        const ArmState* start) {
   const CalibrationStart from = start_of(cell, measured, rows, start);
-  Attempt found = attempt(cell, from, HeldNear::kWeakDirections);
-  if (!may_have_wandered(found)) return std::move(*found.ended);
-  try {
-    Attempt near = attempt(cell, from, HeldNear::kAllDirections);
-    if (counts_instead(near, found, from.data)) return std::move(*near.ended);
-  } catch (const Failure& failure) {
-    if (failure.exit_code() != Exit::kNumbersSayNo) throw;
-  }
-  if (found.lost) throw Failure(std::move(*found.lost));
-  return std::move(*found.ended);
+  return held_if_it_wanders(from.data,
+                            [&](HeldNear held) { return calibrated_with(cell, from, held); });
 }
 
 Calibration calibrated_near(const Cell& cell, const Measurements& measured,
@@ -599,12 +495,8 @@ Calibration calibrate_from(const Cell& cell, const Measurements& measured,
 Calibration calibrate_near(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start,
                            const Calibration& from) {
-  try {
-    return calibrated_near(cell, measured, rows, start, from, HeldNear::kWeakDirections);
-  } catch (const Failure& failure) {
-    if (!is_lost(failure)) throw;
-  }
-  return calibrated_near(cell, measured, rows, start, from, HeldNear::kAllDirections);
+  return held_if_it_is_lost(
+      [&](HeldNear held) { return calibrated_near(cell, measured, rows, start, from, held); });
 }
 
 std::vector<Estimate> estimates_of(const ArmState& state, const ArmState& nominal,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "program/machine_code.hpp"
+#include "tests/drivers/better_code.hpp"
 #include "tests/drivers/fake_machine.hpp"
 
 namespace plumb {
@@ -46,19 +47,10 @@ bool is_itself(const std::string& said) {
   return said.find(std::string("(") + machine_code() + ")") != std::string::npos;
 }
 
-bool prefers_the_other() {
-#if defined(__x86_64__) && !defined(__clang__)
-  __builtin_cpu_init();
-  return std::string(machine_code()) == "x86-64" && __builtin_cpu_supports("x86-64-v3") != 0;
-#else
-  return false;
-#endif
-}
-
 TEST(ProcessorVariant, BecomesTheOtherOneWithTheSameWordsWhereTheProcessorCan) {
   const TwoPrograms programs;
   const std::string said = programs.says("");
-  if (prefers_the_other())
+  if (tests::could_run_better_code())
     EXPECT_EQ(said, "the other one: --version\n");
   else
     EXPECT_TRUE(is_itself(said)) << said;

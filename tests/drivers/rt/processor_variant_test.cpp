@@ -8,21 +8,13 @@
 #include <stdlib.h>
 
 #include "program/machine_code.hpp"
+#include "tests/drivers/better_code.hpp"
 #include "tests/drivers/child.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool could_run_better_code() {
-#if defined(__x86_64__) && !defined(__clang__)
-  __builtin_cpu_init();
-  return std::string(machine_code()) == "x86-64" && __builtin_cpu_supports("x86-64-v3") != 0;
-#else
-  return false;
-#endif
-}
 
 /// With this value of PLUMB_RT_VARIANT, which it removes at the end.
 Check check_with(const char* variant) {
@@ -42,7 +34,8 @@ TEST(MachineCodeChecks, IsDeniedOnlyWhereTheProcessorCanDoMoreAndNeverMakesAMach
   for (const char* const variant : {static_cast<const char*>(nullptr), "baseline", "other"}) {
     const Check check = check_with(variant);
     EXPECT_EQ(check.id, "machine_code");
-    EXPECT_EQ(check.finding.grant, could_run_better_code() ? Grant::kDenied : Grant::kGranted);
+    EXPECT_EQ(check.finding.grant,
+              tests::could_run_better_code() ? Grant::kDenied : Grant::kGranted);
     EXPECT_TRUE(check.finding.why.starts_with(machine_code())) << check.finding.why;
     for (const int cycle_us : {125, 1000, 4000})
       EXPECT_TRUE(obstacles({check}, cycle_us).empty()) << cycle_us;
@@ -50,7 +43,7 @@ TEST(MachineCodeChecks, IsDeniedOnlyWhereTheProcessorCanDoMoreAndNeverMakesAMach
 }
 
 TEST(MachineCodeChecks, SaysWhetherSomebodyAskedForItOrTheOtherProgramIsMissing) {
-  if (!could_run_better_code()) {
+  if (!tests::could_run_better_code()) {
     EXPECT_EQ(check_with("baseline").finding.remedy, "") << "nothing to mend";
     return;
   }
