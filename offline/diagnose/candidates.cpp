@@ -14,12 +14,12 @@
 #include "diagnose/extension.hpp"
 #include "diagnose/fitted_size.hpp"
 #include "diagnose/held_out.hpp"
-#include "diagnose/plausible.hpp"
 #include "diagnose/ripple_scan.hpp"
 #include "diagnose/series_scan.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/registry.hpp"
+#include "fit/plausible.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -84,10 +84,6 @@ inline constexpr double kSameMotion = 0.9999;
 
 // Sizes.
 
-/// Times the typical size: hardly any arm has an effect that large. study.
-inline constexpr double kMostTimesUsual = 20.0;
-/// Standard deviations that are taken off before a size is called large. odds.
-inline constexpr double kSureSigma = 3.0;
 /// RMS motion [m] of a parameter whose size the arm decides. arms.
 inline constexpr double kTypicalMotion_m = 0.1e-3;
 /// Sizes of patterns: of an angle, a shift of the point, and a turn of the tool or base. arms.

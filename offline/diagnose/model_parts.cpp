@@ -10,9 +10,9 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/evidence_scale.hpp"
-#include "diagnose/plausible.hpp"
 #include "effects/registry.hpp"
 #include "fit/fit_judgement.hpp"
+#include "fit/plausible.hpp"
 #include "numbers/cholesky.hpp"
 
 namespace plumb::offline {

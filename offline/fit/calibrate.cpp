@@ -12,7 +12,6 @@
 #include "arm/predicted_points.hpp"
 #include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
-#include "effects/registry.hpp"
 #include "fit/calibration_covariance.hpp"
 #include "fit/constants.hpp"
 #include "fit/fit_judgement.hpp"
@@ -33,6 +32,7 @@
 #include "solve/placement.hpp"
 #include "solve/prior_lines.hpp"
 #include "solve/scaled_jacobian.hpp"
+#include "solve/series_numbers.hpp"
 #include "solve/series_solver.hpp"
 #include "solve/solution_checks.hpp"
 #include "solve/solver.hpp"
@@ -523,7 +523,7 @@ std::vector<Parameter> calibration_candidates(const Cell& cell, const Measuremen
   auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
   // The amplitudes of a series of waves are fitted as well, but are not listed as parameters.
   for (const auto& p : effect_parameters(state.arm))
-    if (!is_series(state.arm.effects[static_cast<std::size_t>(p.joint)].name)) out.push_back(p);
+    if (!is_amplitude_of_series(state.arm, p)) out.push_back(p);
   return out;
 }
 

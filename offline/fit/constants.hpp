@@ -178,6 +178,13 @@ inline constexpr double kSameOrientation_rad = 1e-5, kTurns_rad = 0.02;
 /// chosen.
 inline constexpr double kHarm = 1.5;
 
+// Sizes of effects.
+
+/// Times the typical size: hardly any arm has an effect that large. study.
+inline constexpr double kMostTimesUsual = 20.0;
+/// Standard deviations that are taken off before a size is called large. odds.
+inline constexpr double kSureSigma = 3.0;
+
 // Error against the number of poses.
 
 /// Largest share of the poses that is fitted; the others judge. chosen.

@@ -89,6 +89,12 @@ inline constexpr std::array kLengths = {1e-3, 0.1, 0.2, 0.4, 0.8, 1.6};
 inline constexpr double kSamePose = 2e-3;
 /// Readings of the calibration that are compared with new ones. cost.
 inline constexpr std::size_t kMostNear = 500;
+/// Share of the calibration's poses whose distance from their nearest neighbour is usual; a reading
+/// farther from all of them lies where the model has never been tried. odds.
+inline constexpr double kNearlyAll = 0.99;
+/// What the model lacks there, in the usual scatter of its readings: as much as the effects that
+/// diagnoses find beyond geometry. belief.
+inline constexpr std::array kLacksElsewhere = {3.0, 10.0};
 /// What the model lacks does not matter if it is smaller than this share of the noise. odds.
 inline constexpr double kSmallShare = 0.1;
 

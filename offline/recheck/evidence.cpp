@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "arm/predicted_points.hpp"
+#include "fit/plausible.hpp"
 #include "numbers/gaussian.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "recheck/constants.hpp"
@@ -77,6 +79,18 @@ Eigen::MatrixXd lines_of_base(const ArmState& state, const Measurements& rows) {
 }
 
 }  // namespace
+
+bool sizes_plausible(const std::vector<Change>& changes, std::size_t k, const Judged& judged) {
+  Eigen::Index number = judged.begin[k];
+  return std::all_of(
+      changes[k].parameters.begin(), changes[k].parameters.end(), [&](const Parameter& p) {
+        const double std = std::sqrt(std::max(0.0, judged.x_covariance(number, number)));
+        ++number;
+        return !p.of_effect() ||
+               plausible(value_of(judged.state, p), std,
+                         effect_parameter(judged.state.arm, p.joint, p.component));
+      });
+}
 
 /// The start of the Gauss-Newton steps, and the changes with their scales seen from there.
 struct Judge::Start {
@@ -203,6 +217,7 @@ void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
     const Cholesky llt(S);
     views.push_back(ln_evidence(llt, missed - mean, out.B, changes));
     if (views.back() < *std::max_element(views.begin(), views.end())) continue;
+    out.lacks_elsewhere = view.lacks_elsewhere;
     out.E = view.covariance;
     out.S = S;
     out.J = J_view;

@@ -24,7 +24,7 @@ struct KnownNumbers {
 /// so that the uncertainty of the whole calibration is in the judgement of a few readings. The
 /// size of all variances together is known only roughly, so the evidence is that of Student's t.
 struct Judged {
-  double ln_evidence = 0.0;         // averaged over the scales of T and both views of E [nats]
+  double ln_evidence = 0.0;         // averaged over the scales of T and the views of E [nats]
   Eigen::VectorXd change;           // x, change by change, SI
   std::vector<Eigen::Index> begin;  // where the numbers of each change begin in it
   Eigen::MatrixXd x_covariance;     // of x
@@ -37,8 +37,13 @@ struct Judged {
   Eigen::MatrixXd E;                // the same without the uncertainty of the run
   Eigen::VectorXd prior;            // 1 sigma of each number beforehand, SI
   Eigen::MatrixXd gain;             // (numbers, lines): x = gain r
+  bool lacks_elsewhere = false;     // of the likelier view, see ExpectedError
   double chi2 = 0.0;                // of what is left, (r - B x)^T S^-1 (r - B x), prior counted
 };
+
+/// Whether an arm may well have every effect that change `k` of these altered, in the size that was
+/// judged. Poses that hardly move with an effect would explain an error by any size of it.
+bool sizes_plausible(const std::vector<Change>& changes, std::size_t k, const Judged& judged);
 
 /// Judges changes against readings. Keeps references to what it is given.
 class Judge {

@@ -8,14 +8,10 @@
 
 #include "numbers/cholesky.hpp"
 #include "recheck/constants.hpp"
+#include "recheck/elsewhere.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
-
-double distance(const Measurements& a, int i, const Measurements& b, int j) {
-  const double d = (a.q.row(i) - b.q.row(j)).norm();
-  return d < kSamePose ? 0.0 : d;
-}
 
 /// The fitted rows; if there are very many, only those nearest to each of the new ones.
 std::vector<int> nearest(const Measurements& own, const std::vector<int>& known,
@@ -27,7 +23,7 @@ std::vector<int> nearest(const Measurements& own, const std::vector<int>& known,
   std::vector<std::pair<double, int>> by_distance(known.size());
   for (int i = 0; i < rows.size(); ++i) {
     for (std::size_t k = 0; k < known.size(); ++k)
-      by_distance[k] = {distance(rows, i, own, known[k]), known[k]};
+      by_distance[k] = {pose_distance(rows, i, own, known[k]), known[k]};
     std::partial_sort(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(each),
                       by_distance.end());
     for (std::size_t k = 0; k < each; ++k) out.push_back(by_distance[k].second);
@@ -43,8 +39,8 @@ Eigen::MatrixXd distances(const Measurements& a, const std::vector<int>& rows_a,
                       static_cast<Eigen::Index>(rows_b.size()));
   for (Eigen::Index i = 0; i < out.rows(); ++i)
     for (Eigen::Index j = 0; j < out.cols(); ++j)
-      out(i, j) =
-          distance(a, rows_a[static_cast<std::size_t>(i)], b, rows_b[static_cast<std::size_t>(j)]);
+      out(i, j) = pose_distance(a, rows_a[static_cast<std::size_t>(i)], b,
+                                rows_b[static_cast<std::size_t>(j)]);
   return out;
 }
 

@@ -8,20 +8,13 @@
 #include "fit/verdict.hpp"
 #include "noise/weights.hpp"
 #include "recheck/constants.hpp"
+#include "recheck/elsewhere.hpp"
 #include "recheck/misfit.hpp"
 #include "solve/outlier.hpp"
 #include "solve/series_solver.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
-
-/// Rows of the cell's own measurements that the run was fitted to.
-std::vector<int> fitted_rows(const Run& run, const Measurements& own) {
-  std::vector<int> out;
-  for (int i = 0; i < own.size(); ++i)
-    if (run.fit.split.used[i] && !run.fit.split.held[i]) out.push_back(i);
-  return without_outliers(std::move(out), run.fit.calibration.outliers);
-}
 
 /// Standard deviation of a coordinate of the run's residuals on its own readings.
 double scatter_of(const Run& run, const Measurements& own, const Rows3& error,
@@ -78,13 +71,22 @@ Eigen::MatrixXd covariance_of(const Readings& r, const Rows3& noise_m,
 }
 
 /// Covariance of an error that is equal in all readings of one pose and independent between poses.
-Eigen::MatrixXd anew_at_each_pose(const std::vector<int>& pose, double lacks) {
+/// variance: of each reading [m^2].
+Eigen::MatrixXd anew_at_each_pose(const std::vector<int>& pose, const Eigen::VectorXd& variance) {
   const auto n = static_cast<Eigen::Index>(pose.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index a = 0; a < n; ++a)
     for (Eigen::Index b = 0; b < n; ++b)
-      if (pose[static_cast<std::size_t>(a)] == pose[static_cast<std::size_t>(b)]) out(a, b) = lacks;
+      if (pose[static_cast<std::size_t>(a)] == pose[static_cast<std::size_t>(b)])
+        out(a, b) = std::sqrt(variance(a) * variance(b));
   return out;
+}
+
+/// How many times its usual scatter the model may lack of readings where it has never been tried,
+/// beside the usual view: nobody knows.
+std::vector<double> more_than_usual(const Readings& readings) {
+  if (readings.elsewhere == 0) return {};
+  return {kLacksElsewhere.begin(), kLacksElsewhere.end()};
 }
 
 /// Residuals of the calibration on its own readings.
@@ -120,6 +122,13 @@ double expected_sigma(const Run& calibrated, const Measurements& own) {
   return std::hypot(old.noise_m, old.lacks_m);
 }
 
+std::vector<int> fitted_rows(const Run& run, const Measurements& own) {
+  std::vector<int> out;
+  for (int i = 0; i < own.size(); ++i)
+    if (run.fit.split.used[i] && !run.fit.split.held[i]) out.push_back(i);
+  return without_outliers(std::move(out), run.fit.calibration.outliers);
+}
+
 double Readings::sigma_m() const { return std::hypot(noise_m, lacks_m); }
 
 int axes_of(const Measurements& rows) {
@@ -135,12 +144,25 @@ Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurem
   out.lacks_m = old.lacks_m;
   out.rows = std::move(rows);
   const std::vector<int> pose = pose_numbers(out.rows, out.poses);
+  Eigen::VectorXd untried = Eigen::VectorXd::Zero(out.rows.size());
+  const std::vector<bool> is_elsewhere = elsewhere(own, old.rows, out.rows);
+  std::copy(is_elsewhere.begin(), is_elsewhere.end(), untried.begin());
+  out.elsewhere = static_cast<int>(untried.sum());
 
   Rows3 noise_m = Rows3::Constant(out.rows.size(), 3, out.noise_m);
   if (out.rows.sigma_m.rows() > 0) noise_m = stated_sigma(cell, out.rows);
   const Rows3 nothing = Rows3::Zero(out.rows.size(), 3);
-  const Eigen::MatrixXd anew = anew_at_each_pose(pose, out.lacks_m * out.lacks_m);
+  const Eigen::VectorXd usual =
+      Eigen::VectorXd::Constant(out.rows.size(), std::pow(out.lacks_m, 2));
+  const Eigen::MatrixXd anew = anew_at_each_pose(pose, usual);
   out.expected.push_back({nothing, covariance_of(out, noise_m, anew)});
+  for (const double times : more_than_usual(out)) {
+    const Eigen::VectorXd more = untried * std::pow(times * out.sigma_m(), 2);
+    out.expected.push_back(
+        {.mean_B = nothing,
+         .covariance = covariance_of(out, noise_m, anew + anew_at_each_pose(pose, more)),
+         .lacks_elsewhere = true});
+  }
   const bool same_axes = own.has_axis == out.rows.has_axis;
   if (!same_axes || out.lacks_m <= kSmallShare * out.noise_m || old.rows.empty()) return out;
   const Rows3 error_B = to_base(calibrated.fit.calibration.state, own, old.error_M);

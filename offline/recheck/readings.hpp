@@ -21,6 +21,7 @@ struct ExpectedError {
   /// those counts (misfit.hpp). Empty: no old reading says anything.
   Measurements near = {};
   Eigen::MatrixXd weights = {};
+  bool lacks_elsewhere = false;  // it expects more of poses where the calibration had none
 };
 
 /// The new readings, with what is expected of them. Lines stand pose by pose, `axes` lines each.
@@ -30,9 +31,11 @@ struct Readings {
   int poses = 0;         // different ones
   double noise_m = 0.0;  // 1 sigma of a coordinate, of the instrument
   double lacks_m = 0.0;  // 1 sigma of a coordinate, of what the model of the run lacks
-  /// Two views: what the model lacks is another thing at every pose, or it is what the earlier
-  /// readings there and nearby have shown.
+  /// The first two views: what the model lacks is another thing at every pose, or it is what the
+  /// earlier readings there and nearby have shown. Others, if some of the poses lie elsewhere:
+  /// there it lacks several times as much.
   std::vector<ExpectedError> expected;
+  int elsewhere = 0;  // readings at poses where the calibration had none (elsewhere.hpp)
 
   int lines() const { return rows.size() * axes; }
   double sigma_m() const;  // both together
@@ -42,6 +45,9 @@ struct Readings {
 /// @param rows        The new readings.
 Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurements& own,
                          Measurements rows);
+
+/// Rows of the cell's own measurements that the run was fitted to.
+std::vector<int> fitted_rows(const Run& run, const Measurements& own);
 
 /// 1 sigma of a coordinate of a reading: noise of the instrument and what the model lacks.
 double expected_sigma(const Run& calibrated, const Measurements& own);

@@ -11,6 +11,7 @@
 #include "fit/verdict.hpp"
 #include "numbers/tails.hpp"
 #include "recheck/constants.hpp"
+#include "recheck/known_series.hpp"
 #include "recheck/left_out.hpp"
 #include "recheck/refit.hpp"
 #include "recheck/search.hpp"
@@ -103,7 +104,7 @@ std::vector<Alternative> alternatives_to(const Judge& judge, const Search& searc
     const Judged judged = judge.judge(other);
     const double behind = search.last().ln_evidence + std::log(found.chance) - judged.ln_evidence -
                           std::log(change.chance);
-    if (behind > kListed) continue;
+    if (behind > kListed || !sizes_plausible(other, k, judged)) continue;
     out.push_back({change, behind,
                    motion_of(own, search.last().state, judged.state) > kSamePoints * tolerance_m});
   }
@@ -186,7 +187,8 @@ std::vector<Change> kept_changes(const Search& search, const std::vector<FoundCh
 
 Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
                     const Measurements& own, Measurements rows, const Assumed& assumed) {
-  const LastSetup setup = last_setup(run);
+  LastSetup setup = last_setup(run);
+  setup.known = with_series(std::move(setup.known), setup.state, calibrated, own);
   place_at_the_end(own, rows);
   const Readings readings = expect_readings(cell, calibrated, own, std::move(rows));
   const ArmState extended = with_room_for_changes(cell, own, readings.rows, setup.state);
@@ -214,6 +216,8 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
   const double lines = static_cast<double>(last.r.size());
   out.excess = std::sqrt(last.chi2 / lines);
   out.something_else = ln_chance_of(last.chi2, lines) < std::log(kTooMuch);
+  out.elsewhere = readings.elsewhere;
+  out.only_elsewhere = out.found.empty() && !out.something_else && last.lacks_elsewhere;
   const double axes = static_cast<double>(readings.axes);
   out.limit_m = std::max(cell.tolerance_m, 2.0 * std::sqrt(axes) * readings.sigma_m());
   out.blind = blind_spots(search, readings, extended, poses, assumed, cell.joints(), out.limit_m);
@@ -241,7 +245,8 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
                         out.odd_readings);
   out.predicted_M = readings.rows.p_M - left;
   out.calibration = refitted(cell, run.fit.calibration, setup, kept, refit);
-  if (open || (out.found.empty() && !out.something_else && !out.blind.empty()))
+  if (open || out.only_elsewhere ||
+      (out.found.empty() && !out.something_else && !out.blind.empty()))
     out.verdict = Recheck::Verdict::kUndecidable;
   else if (out.found.empty() && !out.something_else)
     out.verdict = Recheck::Verdict::kTrue;

@@ -40,6 +40,8 @@ struct Recheck {
   std::vector<FoundChange> found;  // the strongest first; single readings are not among them
   std::vector<int> odd_readings;   // rows that contradict all others and were not used
   bool something_else = false;     // the readings are missed by more than the changes explain
+  int elsewhere = 0;               // readings at poses where the calibration had none nearby
+  bool only_elsewhere = false;     // what they miss may be what the model has always missed there
   double excess = 1.0;             // RMS of what is left, over the RMS that is expected
   std::vector<Visibility> blind;   // what these poses would not have shown within `limit_m`
   double limit_m = 0.0;

@@ -7,6 +7,7 @@
 #include "numbers/cholesky.hpp"
 #include "numbers/lu.hpp"
 #include "recheck/constants.hpp"
+#include "recheck/known_series.hpp"
 #include "recheck/refit.hpp"
 #include "solve/outlier.hpp"
 #include "solve/thinned_rows.hpp"
@@ -74,7 +75,8 @@ std::vector<int> best_rows(const Eigen::MatrixXd& columns, int axes, int n) {
 
 RecheckPlan plan_recheck(const Cell& cell, const Run& calibrated, const Run& run,
                          const Measurements& own, int n) {
-  const LastSetup setup = last_setup(run);
+  LastSetup setup = last_setup(run);
+  setup.known = with_series(std::move(setup.known), setup.state, calibrated, own);
   const std::vector<int> known = different_poses(calibrated, own);
   Measurements poses = pick(own, known);
   poses.setup.clear();

@@ -8,6 +8,7 @@
 #include "arm/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "program/problem.hpp"
+#include "solve/series_numbers.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -20,6 +21,19 @@ Eigen::Index place_of(const std::vector<Parameter>& all, const std::string& name
   const auto at =
       std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
   return at == all.end() ? kNone : at - all.begin();
+}
+
+/// Takes the amplitudes of series of waves out, which a run does not list.
+void drop_series(const ArmState& state, std::vector<Parameter>& all, Eigen::MatrixXd& covariance) {
+  std::vector<Eigen::Index> kept;
+  std::vector<Parameter> listed;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_amplitude_of_series(state.arm, all[i])) continue;
+    kept.push_back(static_cast<Eigen::Index>(i));
+    listed.push_back(all[i]);
+  }
+  covariance = covariance(kept, kept).eval();
+  all = std::move(listed);
 }
 
 /// Removes effects that were added for a change that was not found.
@@ -94,6 +108,7 @@ Calibration refitted(const Cell& cell, const Calibration& parent, const LastSetu
   Calibration out = parent;
   out.covariance = A * before.known.covariance * A.transpose() + G * judged.E * G.transpose();
   out.state = judged.state;
+  drop_series(out.state, all, out.covariance);
   out.parameters = std::move(all);
   drop_unused_effects(before.state.arm.effects.size(), changed, out.state, out.parameters);
   ArmState nominal = out.state;

@@ -87,7 +87,9 @@ bool Search::add_best() {
   double most = -std::numeric_limits<double>::infinity();
   for (const auto& change : possible_) {
     if (holds(change) || (is_reading(change) && !may_be_odd())) continue;
-    Judged judged = judge_.judge(with(found_, change));
+    const std::vector<Change> changes = with(found_, change);
+    Judged judged = judge_.judge(changes);
+    if (!sizes_plausible(changes, found_.size(), judged)) continue;
     ln.push_back(judged.ln_evidence - last_.ln_evidence + std::log(change.chance));
     if (ln.back() <= most) continue;
     most = ln.back();
@@ -110,8 +112,8 @@ void Search::exchange() {
       std::vector<Change> other = found_;
       other[k] = change;
       Judged judged = judge_.judge(other);
-      if (judged.ln_evidence + std::log(change.chance) <=
-          last_.ln_evidence + std::log(found_[k].chance))
+      if (!sizes_plausible(other, k, judged) || judged.ln_evidence + std::log(change.chance) <=
+                                                    last_.ln_evidence + std::log(found_[k].chance))
         continue;
       found_ = std::move(other);
       last_ = std::move(judged);

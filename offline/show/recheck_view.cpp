@@ -102,6 +102,16 @@ std::string changed_sentence(const Cell& cell, const Recheck& found, const Run& 
 }
 
 std::string undecidable_sentence(const Cell& cell, const Recheck& found, const Run& run) {
+  if (found.only_elsewhere)
+    return fmt::format(
+        "{} {} cannot tell: run {} misses them by {} mm (mean), but {} lie where its calibration "
+        "had "
+        "no pose nearby, so the model may always have missed there by as much.",
+        found.readings == 1 ? "This" : "These", poses_words(found), run.number,
+        mm(found.before.mean),
+        found.elsewhere == found.readings
+            ? "they"
+            : fmt::format("{} of the {} readings", found.elsewhere, found.readings));
   if (found.found.empty())
     return fmt::format(
         "{} {} cannot tell: nothing contradicts run {}, but they would not show {} before it "
@@ -258,7 +268,8 @@ Json recheck_json(const Cell& cell, const Recheck& found, const Run& run) {
            {"verdict_text", recheck_sentence(cell, found, run)},
            {"verdict_class", class_of(cell, found)},
            {"readings", found.readings},
-           {"poses", found.poses}};
+           {"poses", found.poses},
+           {"elsewhere", found.elsewhere}};
   out["changed"] = Json::array();
   for (const auto& one : found.found) out["changed"].push_back(found_json(cell, one));
   if (found.something_else)

@@ -37,6 +37,11 @@ std::vector<SeriesNumbers> series_numbers(const format::Model& arm) {
   return out;
 }
 
+bool is_amplitude_of_series(const format::Model& arm, const Parameter& parameter) {
+  return parameter.of_effect() &&
+         is_series(arm.effects[static_cast<std::size_t>(parameter.joint)].name);
+}
+
 std::vector<SeriesPeak> series_peaks(const format::Model& arm) {
   std::vector<SeriesPeak> out;
   for (const auto& one : series_numbers(arm)) {

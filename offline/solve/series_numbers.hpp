@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "arm/parameter.hpp"
 #include "cell/cell.hpp"
 #include "plumb/format/model.hpp"
 
@@ -21,6 +22,9 @@ struct SeriesNumbers {
 
 /// One for every joint that has a series, effect by effect.
 std::vector<SeriesNumbers> series_numbers(const format::Model& arm);
+
+/// Whether it is such an amplitude.
+bool is_amplitude_of_series(const format::Model& arm, const Parameter& parameter);
 
 /// One wave of a series: its amplitude [rad] at k cycles per turn of the joint.
 struct SeriesPeak {

@@ -216,6 +216,12 @@ bool has_series(const ArmState& state) {
                      [](const format::Effect& e) { return is_series(e.name); });
 }
 
+Eigen::MatrixXd series_information(const FitData& data, const ArmState& state,
+                                   const std::vector<Parameter>& parameters) {
+  const SeriesProblem problem(data, state, parameters);
+  return problem.information(problem.at(state));
+}
+
 Solution solve_with_series(const FitData& data, const ArmState& start,
                            const std::vector<Parameter>& parameters, double tolerance) {
   const SeriesProblem problem(data, start, parameters);

@@ -23,4 +23,9 @@ bool has_series(const ArmState& state);
 Solution solve_with_series(const FitData& data, const ArmState& start,
                            const std::vector<Parameter>& parameters, double tolerance);
 
+/// J^T J of the whitened readings by `parameters` and, behind them, by the amplitudes of all series
+/// of waves in the order of `series_numbers`. No prior is in it.
+Eigen::MatrixXd series_information(const FitData& data, const ArmState& state,
+                                   const std::vector<Parameter>& parameters);
+
 }  // namespace plumb::offline

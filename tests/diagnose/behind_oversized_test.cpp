@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "diagnose/constants.hpp"
+#include "fit/constants.hpp"
 #include "tests/diagnose/begun.hpp"
 #include "tests/diagnose/whitened_arm.hpp"
 

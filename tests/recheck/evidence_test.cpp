@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "arm/predicted_points.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
@@ -186,6 +187,35 @@ TEST_F(RecheckEvidence, TheMeanBayesFactorOfNoiseIsOne) {
   const double mean = sum / kDraws, scatter = std::sqrt(square / kDraws - mean * mean);
   EXPECT_GT(scatter, 0.01);
   EXPECT_NEAR(mean, 1.0, 4.0 * scatter / std::sqrt(kDraws));
+}
+
+/// No gear has half a radian of backlash, whatever few readings say; an uncertain number may be
+/// any.
+TEST_F(RecheckEvidence, AnEffectOfAnAbsurdSizeIsNotPlausible) {
+  EffectEntry entry;
+  entry.name = "reversal";
+  entry.joints = {1};
+  Judged judged;
+  judged.begin = {0};
+  judged.state = arm.state;
+  judged.state.arm.effects = {bind_effect(arm.cell, arm.poses(5, 4), entry)};
+  judged.x_covariance = Eigen::MatrixXd::Constant(1, 1, 1e-12);
+  Change change{.part = Part::kJoint, .joint = 1, .effect = entry.name};
+  change.parameters = {effect_parameters(judged.state.arm).front()};
+  double& size = judged.state.arm.effects.front().parameters.front();
+  size = 50e-6;
+  EXPECT_TRUE(sizes_plausible({change}, 0, judged));
+  size = 0.446;
+  EXPECT_FALSE(sizes_plausible({change}, 0, judged));
+  Judged two = judged;
+  two.begin = {0, 3};
+  two.x_covariance = 1e-12 * Eigen::MatrixXd::Identity(4, 4);
+  EXPECT_FALSE(sizes_plausible({arm.tool(), change}, 1, two));
+  two.x_covariance(3, 3) = 1.0;
+  EXPECT_TRUE(sizes_plausible({arm.tool(), change}, 1, two));
+  judged.x_covariance(0, 0) = 1.0;
+  EXPECT_TRUE(sizes_plausible({change}, 0, judged));
+  EXPECT_TRUE(sizes_plausible({arm.offset(1)}, 0, judged)) << "an encoder may be mounted anyhow";
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/plausible.hpp"
+#include "fit/plausible.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "diagnose/constants.hpp"
+#include "fit/constants.hpp"
 
 namespace plumb::offline {
 namespace {

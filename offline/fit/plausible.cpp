@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/plausible.hpp"
+#include "fit/plausible.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/constants.hpp"
+#include "fit/constants.hpp"
 #include "fit/fit_judgement.hpp"
 
 namespace plumb::offline {
