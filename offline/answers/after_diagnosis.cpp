@@ -46,6 +46,10 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
       out.push_back(separating(cell, first.entry, rival->entry) + "   # to be sure which it is");
     return out;
   }
+  if (finding == Finding::kUnknown && !d.formulas.empty())
+    return {"add " + adding_arguments(cell, d.formulas.front().entry, {}) +
+                "   # the law that fits best",
+            "compare   # where is it, and since when?"};
   if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
   const bool step_or_slow =
       d.undecided ? d.undecided->slow_motion.has_value() : d.slow_motion && !d.finding_after;

@@ -90,6 +90,22 @@ void describe(Fields& fields, typename Fields::template Of<Undecided>& undecided
 }
 
 template <class Fields>
+void describe(Fields& fields, typename Fields::template Of<FormulaNumber>& number) {
+  fields("name", number.name);
+  fields("unit", number.unit);
+  fields("value", number.value);
+  fields("std", number.std);
+}
+
+template <class Fields>
+void describe(Fields& fields, typename Fields::template Of<FormulaOffer>& offer) {
+  fields("entry", offer.entry);
+  fields("numbers", offer.numbers);
+  fields("before", offer.before);
+  fields("after", offer.after);
+}
+
+template <class Fields>
 void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("finding", found.finding);
   fields("text", found.text);
@@ -112,11 +128,12 @@ void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("candidates", found.candidates);
   fields("not_testable", found.not_testable);
   fields("outliers", found.outliers);
+  fields("formulas", found.formulas);
 }
 
 namespace {
 
-constexpr const char* kSchema = "diagnosis/4";
+constexpr const char* kSchema = "diagnosis/5";
 
 std::filesystem::path kept_file(const Run& run) { return run.directory / "diagnosis.json"; }
 

@@ -16,6 +16,7 @@
 ///   outside  set after an outside test with simulators of its own (842 cases, 2026-11-22 and 23)
 ///   odds     a scale of odds, stated rather than tuned [Kass & Raftery 1995]
 ///   arms     the size that such an error has in industrial arms
+///   formulas seeds 1 and 5 of the formula study (docs/formula-study.md), 2026-11-28
 ///   data     the least from which the number can be estimated at all
 ///   cost     bounds the time of a diagnosis
 ///
@@ -160,6 +161,30 @@ inline constexpr Eigen::Index kFewestBesideStep = 4;
 /// Moves of one part of the set-up, and how often their places are looked for again. cost.
 inline constexpr std::size_t kMostMoves = 4;
 inline constexpr int kSettlingRounds = 3;
+
+// Formulas for structure that no law explains.
+
+/// Formulas that are offered, and terms of each. cost.
+inline constexpr std::size_t kMostFormulas = 3, kMostFormulaTerms = 8;
+/// Harmonics of each of two angles whose product is a term. cost.
+inline constexpr int kFormulaHarmonicsOfPair = 2;
+/// Travels over which a joint may forget where it came from [rad]. arms.
+inline constexpr std::array kFormulaTravels_rad = {0.03, 0.1, 0.3};
+/// A column of which the model imitates all but this share of its square is no term. data.
+inline constexpr double kFormulaOwnShare = 1e-4;
+/// Digits of the numbers that a formula states. cost.
+inline constexpr int kFormulaDigits = 4;
+/// Share of the held-out error that a formula must take away. formulas.
+inline constexpr double kFormulaFall = 0.1;
+/// That fall in its own standard errors. formulas.
+inline constexpr double kFormulaFallSe = 2.0;
+/// The first terms of a formula that explain so much of what all of them do are one, too.
+/// formulas.
+inline constexpr double kFormulaShort = 0.9;
+/// Another formula is offered if its error is at most so many times the least one. formulas.
+inline constexpr double kFormulaNearly = 1.25;
+/// Points of the curve of a formula. cost.
+inline constexpr int kFormulaCurve = 13;
 
 // How far a search goes.
 

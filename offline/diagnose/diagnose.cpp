@@ -13,6 +13,7 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/diagnosis_text.hpp"
+#include "diagnose/formula_proposal.hpp"
 #include "diagnose/forward_selection.hpp"
 #include "diagnose/held_out_predictions.hpp"
 #include "diagnose/judged_fit.hpp"
@@ -224,8 +225,22 @@ void take_over_first(Diagnosis& out) {
     first.alone = first.after = added.held;
 }
 
+/// Formulas for structure that this model leaves.
+std::vector<FormulaOffer> offers(const Work& w, const std::vector<EffectEntry>& effects,
+                                 const Calibration& fitted, const HeldOutPredictions& before,
+                                 const UnknownStructure& unknown) {
+  if (unknown.instead) return {};  // it stands behind an effect that is in this model
+  return formula_offers({w.cell, w.measured, w.split, w.choosing, w.fit, effects, fitted, before,
+                         w.bad, unknown.pattern,
+                         [&w](const std::vector<EffectEntry>& with, const Calibration& from) {
+                           return held_out_of(w, with, from);
+                         }});
+}
+
+/// @param present, before  The model at the start, fitted to all poses, and what it predicts.
 void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
-                    const Scan& first, Diagnosis& out) {
+                    const Scan& first, const Calibration& present, const HeldOutPredictions& before,
+                    Diagnosis& out) {
   ForwardSelection found = forward_selection(w.start(w.choosing, false), base, whitened, first);
   std::vector<HeldOutPredictions> held_by_step;
   for (const auto& step : found.steps) {
@@ -277,6 +292,10 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     out.floor =
         with_repeatability(noise_floor(w.cell, w.measured, fitted.state), out.repeatability);
   }
+  if (found.unknown)
+    out.formulas =
+        offers(w, out.effects, found.steps.empty() ? present : found.steps.back().calibration,
+               held ? *held : before, *found.unknown);
   if (nested && kept > 0) {
     out.nested = true;
     held = std::move(nested);
@@ -391,12 +410,15 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);
-  if (request.apply && !wrong_gravity) go_all_the_way(w, base, whitened, first, out);
+  if (request.apply && !wrong_gravity) go_all_the_way(w, base, whitened, first, present, held, out);
   take_over_first(out);
   facts.refused = out.refused.has_value();
   facts.excess = far_above_the_noise(out);
   out.finding = decide(facts);
   if (request.apply) out.finding_after = decide(facts_after(facts, out));
+  if (!request.apply && out.finding == Finding::kUnknown && !out.gravity)
+    out.formulas = offers(w, w.cell.effects, present, held, *out.unknown);
+  if (out.finding_after && out.finding_after != Finding::kUnknown) out.formulas.clear();
   out.text = verdict_text(w.cell, out);
   out.text_after = verdict_after_text(w.cell, out);
   return out;

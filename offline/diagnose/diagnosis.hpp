@@ -11,6 +11,7 @@
 #include "cell/measurements.hpp"
 #include "check/effect_rules.hpp"
 #include "diagnose/finding.hpp"
+#include "diagnose/formula_offer.hpp"
 #include "diagnose/move.hpp"
 #include "diagnose/regressor.hpp"
 #include "fit/held_out_excess.hpp"
@@ -140,6 +141,7 @@ struct Diagnosis {
   std::vector<Testable> not_testable;
   std::optional<UnknownStructure> unknown;        // at the start
   std::optional<UnknownStructure> unknown_after;  // at the end
+  std::vector<FormulaOffer> formulas;             // laws for it that fit, best first
   std::vector<Oversized> unlikely;                // added and well founded, but large
   std::optional<HeldOutExcess> held_out_excess;   // at the end; none without a noise floor
   std::vector<EffectEntry> effects;               // the list at the end

@@ -18,7 +18,7 @@ void HeldOutPredictions::put(const Calibration& calibration, const std::vector<i
     predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
 }
 
-std::vector<double> HeldOutPredictions::norms() const {
+std::vector<double> HeldOutPredictions::errors_m() const {
   const Rows3 error = residuals(*measured_, predicted_);
   std::vector<double> norms;
   for (int row : rows_) norms.push_back(error.row(row).norm());
@@ -26,12 +26,12 @@ std::vector<double> HeldOutPredictions::norms() const {
 }
 
 std::set<int> HeldOutPredictions::bad_rows(double sigma_m) const {
-  const auto far = far_rows(norms(), sigma_m);
+  const auto far = far_rows(errors_m(), sigma_m);
   return are_single(far.size(), rows_.size()) ? far : std::set<int>();
 }
 
 ErrorStats HeldOutPredictions::stats(const BadRows& bad) const {
-  std::vector<double> all = norms(), usual;
+  std::vector<double> all = errors_m(), usual;
   const auto far = far_rows(all, bad.sigma_m);
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (!bad.rows.contains(rows_[i]) || !far.contains(rows_[i])) usual.push_back(all[i]);

@@ -34,8 +34,10 @@ class HeldOutPredictions {
   /// has made worse counts, and a bad one that the model now predicts well counts too.
   ErrorStats stats(const BadRows& bad) const;
 
+  /// Of each row, in the order of held_rows of the split.
+  std::vector<double> errors_m() const;
+
  private:
-  std::vector<double> norms() const;
   std::set<int> far_rows(const std::vector<double>& errors_m, double sigma_m) const;
 
   const Measurements* measured_;

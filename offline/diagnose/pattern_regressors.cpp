@@ -76,6 +76,7 @@ Regressor on_joint(int joint, Pattern pattern, std::vector<Eigen::ArrayXd> shape
   Regressor out;
   out.pattern = std::move(pattern);
   out.pattern.subject = fmt::format("joint {}", joint + 1);
+  out.pattern.joint = joint;
   out.joint = joint;
   out.columns.resize(shapes.front().size(), static_cast<Eigen::Index>(shapes.size()));
   for (std::size_t c = 0; c < shapes.size(); ++c)
@@ -89,7 +90,7 @@ Regressor on_body(const WhitenedFit& s, bool base, Pattern pattern,
                   const std::vector<Eigen::ArrayXd>& shapes) {
   Regressor out;
   out.pattern = std::move(pattern);
-  out.pattern.subject = base ? "the base" : "the tool frame";
+  out.pattern.subject = base ? kTheBase : kTheTool;
   const Eigen::MatrixXd& carriers = base ? s.base : s.tool;
   const auto count = static_cast<Eigen::Index>(shapes.size());
   out.columns.resize(carriers.rows(), carriers.cols() * count);

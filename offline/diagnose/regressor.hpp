@@ -19,8 +19,13 @@ struct Pattern {
   std::vector<std::string> depends_on;  // "q4", "t", "temp_base"
   double harmonic = 0.0;                // 0: none
   bool slow = false;                    // moves with time, a temperature or another slow reading
+  int joint = -1;                       // the one that errs, zero-based; -1: the base or the tool
   bool empty() const { return subject.empty(); }
 };
+
+/// Subjects of patterns that belong to no joint.
+inline constexpr const char* kTheBase = "the base";
+inline constexpr const char* kTheTool = "the tool frame";
 
 /// Something that may be missing from the model: how it would move the measured point, per typical
 /// size. Either functions of the pose that turn or shift one joint, or as many functions for each

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/effect_arguments.hpp"
+#include "cell/formula_reader.hpp"
+#include "diagnose/formula_words.hpp"
 #include "effects/registry.hpp"
 #include "runs/option_json.hpp"
 #include "show/diagnose_view.hpp"
@@ -133,6 +136,32 @@ Json unknown_json(const Cell& cell, const UnknownStructure& unknown) {
   return out;
 }
 
+Json formula_json(const Cell& cell, const FormulaOffer& offer) {
+  const FormulaText text = formula_text(offer.entry);
+  Json out{{"formula", law_of(offer)},
+           {"domain", text.domain},
+           {"options", offer.entry.options},
+           {"parameters", Json::array()},
+           {"command", "plumb add " + adding_arguments(cell, offer.entry, {})}};
+  for (const auto& n : offer.numbers) {
+    Json one{{"name", n.name}, {"unit", n.unit}};
+    put(one, "value", n.value);
+    put(one, "std", n.std);
+    out["parameters"].push_back(std::move(one));
+  }
+  put_error(out, "held_out_before", offer.before);
+  put_error(out, "held_out_after", offer.after);
+  put(out, "fall_mm", to_mm(offer.fall_m));
+  put(out, "fall_se_mm", to_mm(offer.fall_se_m));
+  put(out, "nats", offer.nats);
+  out["curve"] = {{"input", offer.input},
+                  {"input_unit", offer.input_unit},
+                  {"unit", offer.turns ? "rad" : "m"},
+                  {"points", Json::array()}};
+  for (const auto& at : offer.curve) out["curve"]["points"].push_back({at.input, at.value});
+  return out;
+}
+
 Json undecided_json(const Cell& cell, const Undecided& undecided) {
   Json out = entry_json(cell, undecided.entry);
   out["cycles_per_turn"] = undecided.cycles;
@@ -192,6 +221,8 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     out["unknown"] = unknown_json(cell, *unknown);
   else
     put_null(out, "unknown", "no such structure was found");
+  out["formulas"] = Json::array();
+  for (const auto& offer : d.formulas) out["formulas"].push_back(formula_json(cell, offer));
   if (d.finding_after) {
     out["verdict_after"] = name_of(*d.finding_after);
     out["verdict_after_text"] = d.text_after;

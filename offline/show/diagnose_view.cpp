@@ -9,6 +9,7 @@
 #include "diagnose/certainty.hpp"
 #include "diagnose/effect_domain.hpp"
 #include "diagnose/effect_words.hpp"
+#include "diagnose/formula_words.hpp"
 #include "diagnose/scan.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
@@ -129,6 +130,14 @@ Blocks candidates_blocks(const Cell& cell, const Diagnosis& d, Candidates shown)
   return out;
 }
 
+/// Laws that fit what no effect of the library explains, a line each.
+Blocks formula_blocks(const Cell& cell, const Diagnosis& d) {
+  std::vector<std::string> lines;
+  for (const auto& offer : d.formulas) lines.push_back(formula_sentence(cell, offer, lines.size()));
+  if (lines.empty()) return {};
+  return {Note{fmt::format("{}", fmt::join(lines, "\n"))}};
+}
+
 Table not_testable_table(const Diagnosis& d) {
   Table table{.name = "not_testable",
               .caption = "Not testable with these data",
@@ -158,6 +167,7 @@ std::string support_words(const Diagnosis& d, const Candidate& c) {
 Blocks diagnosis_blocks(const Cell& cell, const Diagnosis& d, Candidates shown) {
   Blocks out{Sentence{d.text, class_of(d.finding)}};
   if (d.finding_after) out.emplace_back(Sentence{d.text_after, class_of(*d.finding_after)});
+  append(out, formula_blocks(cell, d));
   append(out, steps_blocks(cell, d));
   out.emplace_back(Figure{"evidence"});
   append(out, candidates_blocks(cell, d, shown));

@@ -153,6 +153,20 @@ void add_unknown_laws(std::vector<LawEntry>& all) {
                 {"period_s"}));
 }
 
+/// For the study of formulas; the first part of the blind study does not draw them either.
+void add_outside_laws(std::vector<LawEntry>& all) {
+  const auto outside = [&](const char* name, const char* line, LawMaker make, Needs needs) {
+    all.push_back(
+        needing(called(with_keys(of_joints(name, line, make), {"from"}), "unknown"), needs));
+  };
+  outside("folded_sine", "a joint errs with |sin| of another's angle; @from=1", make_folded_sine,
+          Needs::kNothing);
+  outside("growing", "a joint's error grows towards an end of another's range; @from=1",
+          make_growing, Needs::kNothing);
+  outside("directed_sine", "twice a turn of another joint, from one side only; @from=1",
+          make_directed_sine, Needs::kDirection);
+}
+
 void add_planar_laws(std::vector<LawEntry>& all) {
   all.push_back(called(
       of_arm("planar_published", "beams of the planar study, as its printed figures need them",
@@ -175,6 +189,7 @@ const std::vector<LawEntry>& law_entries() {
     add_unknown_laws(all);
     add_planar_laws(all);
     add_inconvenient_laws(all);
+    add_outside_laws(all);
     return all;
   }();
   return entries;

@@ -42,6 +42,9 @@ MadeLaw make_joint_memory(const HiddenEffect& effect, const World& world);
 MadeLaw make_warm_encoder(const HiddenEffect& effect, const World& world);
 MadeLaw make_room_sway(const HiddenEffect& effect, const World& world);
 MadeLaw make_tool_wander(const HiddenEffect& effect, const World& world);
+MadeLaw make_folded_sine(const HiddenEffect& effect, const World& world);
+MadeLaw make_growing(const HiddenEffect& effect, const World& world);
+MadeLaw make_directed_sine(const HiddenEffect& effect, const World& world);
 MadeLaw make_planar_published(const HiddenEffect& effect, const World& world);
 MadeLaw make_planar_printed(const HiddenEffect& effect, const World& world);
 

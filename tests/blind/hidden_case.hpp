@@ -29,6 +29,7 @@ struct HiddenCase {
   // Of the study of inconvenient arms only:
   std::string kind;                  // "joint scatter"
   std::vector<std::string> related;  // effects that are no error there
+  bool formulas = false;             // of the study of formulas: what is offered is scored
 };
 
 /// Draws case `number` of the study with that seed. Cases are balanced over groups, laws, arms and

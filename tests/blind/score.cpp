@@ -6,21 +6,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "arm/effect_binding.hpp"
-#include "arm/predicted_points.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
-#include "fit/calibrate.hpp"
-#include "fit/cell_data.hpp"
 #include "fit/fit_cell.hpp"
-#include "program/file.hpp"
 #include "simulate/law.hpp"
 #include "tests/blind/answer.hpp"
 #include "tests/blind/claims.hpp"
+#include "tests/blind/seen.hpp"
 
 namespace plumb::tests {
 namespace {
@@ -28,45 +23,6 @@ namespace {
 using namespace offline;
 constexpr std::uint64_t kTreeEvery = 5;  // cases
 constexpr double kShiftWithin = 0.10;
-namespace fs = std::filesystem;
-
-/// What a diagnosis may see: the two files, read back.
-struct Seen {
-  Cell cell;
-  MeasurementFiles measured;
-};
-
-Seen written_and_read(const BlindCase& blind, std::uint64_t seed) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("plumb_blind_{}", seed);
-  fs::create_directories(folder);
-  write_file_atomically(folder / "cell.toml", blind.cell_toml);
-  write_file_atomically(folder / "measurements.csv", blind.measurements_csv);
-  Seen out{read_cell(folder / "cell.toml"), {}};
-  out.measured = read_cell_measurements(out.cell);
-  fs::remove_all(folder);
-  return out;
-}
-
-/// Per-axis RMS from the noise-free truth on fresh poses, in sigma. Effects of the measurement act
-/// on fresh poses too unless they happened once.
-double true_error(ArmState arm, const Simulation& fresh) {
-  // Thrown away before the arm works: steps, drift, lag, the tracker.
-  for (auto& effect : arm.arm.effects) {
-    const EffectInfo& info = *descriptor_of(effect.name).law;
-    if (info.domain == EffectDomain::kMeasurement || info.domain == EffectDomain::kProcedure)
-      std::fill(effect.parameters.begin(), effect.parameters.end(), 0.0);
-  }
-  const Rows3 error = fresh.true_p_M - predict_points(arm, fresh.measured);
-  return std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
-}
-
-ArmState fitted(const Seen& seen, const std::vector<EffectEntry>& effects) {
-  Cell cell = seen.cell;
-  cell.effects = effects;
-  std::vector<int> rows(static_cast<std::size_t>(seen.measured.size()));
-  std::iota(rows.begin(), rows.end(), 0);
-  return calibrate(cell, seen.measured, rows).state;
-}
 
 /// The same with a tree that learns what the effects leave.
 ArmState fitted_with_tree(const Seen& seen, std::vector<EffectEntry> effects) {
@@ -236,6 +192,7 @@ Score run_case(const HiddenCase& drawn) {
     out.claims = claims_of(drawn, d);
     if (!drawn.kind.empty() && out.claims->fall_counts)
       out.claims->true_fall = true_fall(seen, blind, d, sigma);
+    if (drawn.formulas) out.formula = formula_score(drawn, blind, seen, d);
     out.made = true;
   } catch (const Failure& failure) {
     out.why_not = failure.what();

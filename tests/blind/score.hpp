@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnose/diagnosis.hpp"
+#include "tests/blind/formula_score.hpp"
 #include "tests/blind/hidden_case.hpp"
 
 namespace plumb::tests {
@@ -41,6 +42,7 @@ struct Score {
   double held_over_floor = 0.0;      // held-out RMS over noise floor
   double held_over_true = 0.0;       // held-out RMS over what fresh noisy poses would show
   std::optional<Claims> claims;
+  std::optional<FormulaScore> formula;  // of the study of formulas
   double seconds = 0.0;
   std::string said;  // first candidate, what was added
 };
