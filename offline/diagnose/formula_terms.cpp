@@ -122,11 +122,17 @@ Factor times(const Factor& a, const Factor& b) {
 std::string multiple(int h, const std::string& x) {
   return h == 1 ? x : fmt::format("{}*{}", h, x);
 }
+/// "(q4)"; a text in parentheses already has them.
+std::string argument(const std::string& x) {
+  const bool whole = x.front() == '(' && x.find(')') == x.size() - 1;
+  return whole ? x : "(" + x + ")";
+}
+
 Factor sine(int h, const Factor& x) {
-  return {"sin(" + multiple(h, x.text) + ")", (h * x.value).sin()};
+  return {"sin" + argument(multiple(h, x.text)), (h * x.value).sin()};
 }
 Factor cosine(int h, const Factor& x) {
-  return {"cos(" + multiple(h, x.text) + ")", (h * x.value).cos()};
+  return {"cos" + argument(multiple(h, x.text)), (h * x.value).cos()};
 }
 std::vector<Factor> waves(int harmonics, const Factor& x) {
   std::vector<Factor> out;

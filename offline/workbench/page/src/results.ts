@@ -175,6 +175,21 @@ export interface Diagnosis {
       measure?: string;
     }[];
   } | null;
+  formulas: {
+    formula: string;
+    domain: string;
+    options: Record<string, unknown>;
+    parameters: { name: string; unit: string; value: number | null; std: number | null }[];
+    command: string;
+    held_out_before_mm: number | null;
+    held_out_before_rms_mm: number | null;
+    held_out_after_mm: number | null;
+    held_out_after_rms_mm: number | null;
+    fall_mm: number | null;
+    fall_se_mm: number | null;
+    nats: number | null;
+    curve: { input: string; input_unit: string; unit: "rad" | "m"; points: number[][] };
+  }[];
   verdict_after?: "complete" | "missing" | "unknown" | "undecidable";
   verdict_after_text?: string;
   unlikely: { effect: string; joints: string[]; options: Record<string, unknown>; times_usual: number | null }[];
