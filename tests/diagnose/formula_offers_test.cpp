@@ -90,7 +90,7 @@ TEST(FormulaOffers, PromiseTheErrorThatTheOrdinaryFitThenHas) {
   ASSERT_FALSE(d.formulas.empty());
   Cell with = blind.cell;
   with.effects.push_back(d.formulas.front().entry);
-  const Fit fit = fit_all(with, blind.measured.measured);
+  const Fit fit = fit_cell(with, blind.measured.measured);
   EXPECT_NEAR(fit.held.mean, d.formulas.front().after.mean, 0.02 * fit.held.mean);
 }
 
