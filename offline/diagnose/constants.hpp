@@ -16,7 +16,7 @@
 ///   outside  set after an outside test with simulators of its own (842 cases, 2026-11-22 and 23)
 ///   odds     a scale of odds, stated rather than tuned [Kass & Raftery 1995]
 ///   arms     the size that such an error has in industrial arms
-///   formulas seeds 1 and 5 of the formula study (docs/formula-study.md), 2026-11-28
+///   formulas set beforehand and kept after seeds 1 and 5 of docs/formula-study.md, 2026-11-28
 ///   data     the least from which the number can be estimated at all
 ///   cost     bounds the time of a diagnosis
 ///
