@@ -128,10 +128,10 @@ constexpr Explanation kTerms[] = {
     {"these poses cannot tell",
      "Of a diagnosis: two or more effects explain the readings nearly as well (a lead of less "
      "than 10 nats names the wrong one in every third case), and each can imitate the other. The "
-     "error falls as far with either. plumb diagnose --apply adds the first, but nothing where one "
-     "of "
-     "them would be compiled and another thrown away. plumb plan --separate A,B proposes poses "
-     "that tell."},
+     "error falls as far with either. plumb diagnose --apply adds the first, but none of them "
+     "where "
+     "one would be compiled and another thrown away; what else is supported beside them it adds. "
+     "plumb plan --separate A,B proposes poses that tell."},
     {"Certain",
      "Of the first candidate: the evidence speaks for it by far, and no other candidate is near "
      "it. Rivals that the data cannot test are listed under Not testable."},

@@ -30,17 +30,6 @@ bool lists(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether two candidates are names of the same finding, for instance a law and a finer law of the
-/// same cause.
-bool one_finding(const EffectEntry& a, const EffectEntry& b) {
-  const EffectDescriptor &x = descriptor_of(a.name), &y = descriptor_of(b.name);
-  if (!share_a_joint(a, b)) return false;
-  if (a.name == b.name) return true;
-  return (x.cause != Cause::kItsOwn && x.cause == y.cause) ||
-         (yields_in_proportion(x) && yields_in_proportion(y)) ||
-         (a.joints == b.joints && (lists(x.same_motion, b.name) || lists(y.same_motion, a.name)));
-}
-
 /// The candidates that are another finding than `first` and hardly weaker in evidence.
 std::vector<const Found*> near(const std::vector<Found>& all, const Found& first) {
   std::vector<const Found*> out;
@@ -85,6 +74,15 @@ bool moves_on_and_on(const WhitenedFit& whitened, const Found& step) {
 }
 
 }  // namespace
+
+bool one_finding(const EffectEntry& a, const EffectEntry& b) {
+  const EffectDescriptor &x = descriptor_of(a.name), &y = descriptor_of(b.name);
+  if (!share_a_joint(a, b)) return false;
+  if (a.name == b.name) return true;
+  return (x.cause != Cause::kItsOwn && x.cause == y.cause) ||
+         (yields_in_proportion(x) && yields_in_proportion(y)) ||
+         (a.joints == b.joints && (lists(x.same_motion, b.name) || lists(y.same_motion, a.name)));
+}
 
 std::vector<Alternative> alternatives_under_unknown_weights(const WhitenedFit& whitened,
                                                             const Found& first) {

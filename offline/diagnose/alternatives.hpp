@@ -40,6 +40,10 @@ std::optional<Found> slow_motion_instead_of(const WhitenedFit& whitened, const S
                                             const Found& first,
                                             const std::vector<Alternative>& others);
 
+/// Whether two effects are names of the same finding, for instance a law and a finer law of the
+/// same cause at the same joint.
+bool one_finding(const EffectEntry& a, const EffectEntry& b);
+
 /// Whether one of them is a law that the data cannot show.
 bool names_what_is_not_shown(const std::vector<Alternative>& alternatives);
 

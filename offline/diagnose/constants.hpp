@@ -191,6 +191,9 @@ inline constexpr int kFormulaCurve = 13;
 /// Additions of one selection, and effects that are taken out and looked for again. cost.
 inline constexpr int kMostSteps = 60;
 inline constexpr std::size_t kMostExchanges = 4;
+/// Findings that stay undecided and are carried as nuisances in one search, and how often a model
+/// with what was found beside them is searched again. cost.
+inline constexpr int kMostCarried = 4, kMostBesideSearches = 3;
 /// Effects of a model; some are left to the user. cost.
 inline constexpr std::size_t kMostEffects = format::kMaxEffects - 4;
 /// Effects of one explanation, and rivals of the chosen effect that are followed. cost.

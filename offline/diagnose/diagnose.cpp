@@ -253,7 +253,9 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   const bool rises = nested && rises_over(out.before, nested->stats(w.bad));
   const std::size_t kept = rises ? 0 : steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
-  if (rises) out.refused = nested->stats(w.bad);
+  // Where only what was found beside an undecided finding is refused, that finding is left.
+  const bool undecided_is_left = refused && found.at_first && kept >= found.at_first->steps;
+  if (rises && !undecided_is_left) out.refused = nested->stats(w.bad);
   if (refused) {
     say_what_was_refused(w.cell, out.added, kept,
                          kept == 0 ? out.before.mean : out.added[kept - 1].held.mean,
@@ -278,6 +280,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
   out.full = found.full;
   if (!refused) out.undecided = found.undecided;
+  if (undecided_is_left) out.undecided = found.at_first->undecided;
   out.unlikely = found.unlikely;
   say_what_was_not_judged(found, out);
   if (!found.steps.empty()) {

@@ -98,9 +98,9 @@ struct OtherGravity {
   bool certain = false;     // 10 nats ahead; else these poses cannot tell
 };
 
-/// Why a selection ended: an effect and its alternatives, some of which would be compiled and some
-/// not, or a step that may be a slow motion. Adding any would decide what the compiled arm is, so
-/// none is added.
+/// A supported effect that is not added: it has alternatives, some of which would be compiled and
+/// some not, or it is a step that may be a slow motion. Adding any would decide what the compiled
+/// arm is, so none is added; what was found beside them is.
 struct Undecided {
   EffectEntry entry;
   std::vector<double> cycles;
@@ -132,7 +132,7 @@ struct Diagnosis {
   /// Gravity acts in another direction, or may do so. Where it is certain, `candidates` are those
   /// under it, and nothing is added before the cell says so.
   std::optional<OtherGravity> gravity;
-  std::optional<Undecided> undecided;  // with `apply`: where it stopped for that reason
+  std::optional<Undecided> undecided;  // with `apply`: supported, and in no model
   /// With `apply`, where all was refused that the fitted poses speak for: the error on unseen poses
   /// of effects chosen anew without each fold.
   std::optional<ErrorStats> refused;

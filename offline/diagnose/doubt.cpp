@@ -26,7 +26,9 @@ std::optional<Proposal> others_in_its_place(const Selection& s, const Found& fou
   const JudgedModel without = s.without(found.entries(), s.banned());
   const auto better = better_explanation(without.whitened, without.look, s.key(found.entry),
                                          s.start().not_testable, s.banned());
-  if (!better) return std::nullopt;
+  const auto is_open = [&](const Found& one) { return s.is_open(one.entry); };
+  if (!better || std::any_of(better->effects.begin(), better->effects.end(), is_open))
+    return std::nullopt;
   auto effects = without.model.cell->effects;
   for (const auto& one : better->effects) effects = with_found(std::move(effects), one);
   return Proposal{.model = s.fitted(effects),

@@ -35,7 +35,8 @@ const Found* moves_otherwise(const Selection& s, const JudgedModel& without, con
 const Found* better_than(const Selection& s, const JudgedModel& without, const Found& found) {
   if (const Found* again = moves_otherwise(s, without, found)) return again;
   const Found* other = without.look.supported();
-  if (other == nullptr || s.key(other->entry) == s.key(found.entry)) return nullptr;
+  if (other == nullptr || s.key(other->entry) == s.key(found.entry) || s.is_open(other->entry))
+    return nullptr;
   return other->ln_bayes() < evidence_without(without, found) + kSupported ? nullptr : other;
 }
 
@@ -91,7 +92,8 @@ std::optional<Proposal> one_of_usual_size(const Selection& s, const Found& found
   const Found* own = without.look.find(s.cell(), s.key(entry));
   const Found* other = without.look.supported(
       [&](const Found& f) { return f.entry.name != entry.name || f.entry.joints != entry.joints; });
-  if (own == nullptr || other == nullptr || other->ln_bayes() < own->ln_bayes() - kTold_nats)
+  if (own == nullptr || other == nullptr || s.is_open(other->entry) ||
+      other->ln_bayes() < own->ln_bayes() - kTold_nats)
     return std::nullopt;
   FittedModel next = s.fitted(with_found(without.model.cell->effects, *other));
   WhitenedFit whitened = s.whitened_fit_of(next);

@@ -7,6 +7,7 @@
 #include "diagnose/add_effect.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/behind_oversized.hpp"
+#include "diagnose/beside_undecided.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/doubt.hpp"
@@ -34,10 +35,11 @@ Found as_many_as_fit(const Selection& s, Found found) {
 /// Whether an effect may be added. Of several that these poses cannot tell apart the first is added
 /// where all share its fate, since the prediction is as good with any of them. Where some would be
 /// compiled and others thrown away, it would be a guess about the arm; so would be a step in place
-/// of a slow motion.
+/// of a slow motion. Beside one of them that is carried as a nuisance, the others stay open too.
 bool may_be_added(Selection& s, const Found& best, ForwardSelection& out) {
   auto others = alternatives(s.whitened(), s.look(), best, s.start().excluded);
-  if (of_different_fate(best.entry, others)) {
+  const bool beside_itself = !s.carried().empty() && s.is_open(best.entry);
+  if (beside_itself || of_different_fate(best.entry, others)) {
     out.undecided = Undecided{best.entry, best.cycles, domain_word(best.entry), std::move(others)};
     return false;
   }
@@ -78,6 +80,27 @@ void select(Selection& s, ForwardSelection& out) {
     else if (!revise_once(s, {&kExchange, &kDoubt, &kExchangeForSize, &kLeftOutEnds}))
       return;
   }
+}
+
+/// What it ended at, if that was undecided.
+std::optional<Undecided> open_end(const ForwardSelection& ended) {
+  return ended.unknown || ended.full ? std::nullopt : ended.undecided;
+}
+
+/// Selects until nothing more is found, neither by itself nor beside what stays undecided.
+Selection searched(Selection s, ForwardSelection& out, int rounds) {
+  select(s, out);
+  const std::optional<Undecided> open = open_end(out);
+  if (!open || rounds == 0) return s;
+  std::optional<Selection> more = with_what_is_beside(s, *open, [](Selection& beside) {
+    ForwardSelection there;
+    select(beside, there);
+    return open_end(there);
+  });
+  if (!more) return s;
+  if (!out.at_first) out.at_first = {*open, s.added.size()};
+  out.undecided.reset();
+  return searched(std::move(*more), out, rounds - 1);
 }
 
 bool same(const std::vector<EffectEntry>& a, const std::vector<EffectEntry>& b) {
@@ -121,9 +144,9 @@ std::vector<ForwardStep> steps(Selection& s) {
 
 ForwardSelection forward_selection(const ForwardStart& start, const Calibration& calibration,
                                    WhitenedFit whitened, const Scan& first) {
-  Selection selection(start, calibration, std::move(whitened), first);
   ForwardSelection out;
-  select(selection, out);
+  Selection selection =
+      searched(Selection(start, calibration, std::move(whitened), first), out, kMostBesideSearches);
   if (!out.unknown) out.unknown = behind_oversized(selection, out.unlikely);
   out.steps = steps(selection);
   out.not_judged = selection.not_judged();

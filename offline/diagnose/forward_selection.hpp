@@ -24,13 +24,20 @@ struct ForwardStep {
 };
 
 /// Forward selection from one fitted model: the best supported effect is added, all is refitted
-/// jointly, what lost its evidence is dropped, until nothing more is supported.
+/// jointly, what lost its evidence is dropped, until nothing more is supported. What stays
+/// undecided is no step; others are, that were found beside it.
 struct ForwardSelection {
   std::vector<ForwardStep> steps;
   bool full = false;  // more is supported, but a model holds no more effects
   std::optional<UnknownStructure>
-      unknown;                          // left at the end, or what an oversized effect stands for
-  std::optional<Undecided> undecided;   // where it ended for that reason
+      unknown;                         // left at the end, or what an oversized effect stands for
+  std::optional<Undecided> undecided;  // supported at the end, and not added for that reason
+  /// The same before others were found beside it, and after how many steps that was.
+  struct AtFirst {
+    Undecided undecided;
+    std::size_t steps = 0;
+  };
+  std::optional<AtFirst> at_first;
   std::vector<Oversized> unlikely;      // of the steps: large, but nothing else explains as much
   std::vector<std::string> not_judged;  // models that could not be refitted, in words
 };

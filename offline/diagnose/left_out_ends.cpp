@@ -50,7 +50,7 @@ std::optional<Proposal> with_step_at_ends(const Selection& s, const Found&) {
       s.cell(), s.start().measured, ends, without_outliers(s.start().fit, ends.outliers), {});
   const Scan look = scan(whitened, s.start().not_testable, s.banned());
   const Found* step = look.supported([](const Found& f) { return is_change_point(f.entry.name); });
-  if (step == nullptr) return std::nullopt;
+  if (step == nullptr || s.is_open(step->entry)) return std::nullopt;
   FittedModel next = s.fitted_from(ends, with_found(s.cell().effects, *step));
   // A step that leaves them outliers does not explain them. Its numbers alone fit two poses.
   const auto number = [](const Calibration& c) { return static_cast<double>(c.outliers.size()); };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/selection.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "diagnose/alternatives.hpp"
@@ -129,6 +130,24 @@ void Selection::remember_alternatives(const std::string& key, std::vector<Altern
 std::vector<Alternative> Selection::alternatives_of(const std::string& key) const {
   const auto found = alternatives_.find(key);
   return found == alternatives_.end() ? std::vector<Alternative>() : found->second;
+}
+
+void Selection::carry(const Found& nuisance) {
+  FittedModel next = fitted_somehow(with_found(cell().effects, nuisance));
+  WhitenedFit whitened = whitened_fit_of(next);
+  start_.cell.effects = with_found(std::move(start_.cell.effects), nuisance);
+  for (auto& entry : nuisance.entries()) carried_.push_back(std::move(entry));
+  look_at(std::move(next), std::move(whitened));
+}
+
+void Selection::leave_open(const std::vector<EffectEntry>& findings) {
+  open_.insert(open_.end(), findings.begin(), findings.end());
+}
+
+bool Selection::is_open(const EffectEntry& entry) const {
+  return std::any_of(open_.begin(), open_.end(), [&](const EffectEntry& one) {
+    return key(one) == key(entry) || one_finding(one, entry);
+  });
 }
 
 void Selection::not_compared_without(const EffectEntry& entry) {

@@ -93,6 +93,18 @@ class Selection {
   void remember_alternatives(const std::string& key, std::vector<Alternative> others);
   std::vector<Alternative> alternatives_of(const std::string& key) const;
 
+  /// Carries an effect from now on that must not be added, as a nuisance: it is fitted as if the
+  /// cell stated it, so that it is neither added nor exchanged nor taken out. Throws as `refitted`.
+  void carry(const Found& nuisance);
+  const std::vector<EffectEntry>& carried() const { return carried_; }
+
+  /// Findings between which these poses cannot decide, so that none of them is to enter the model
+  /// by a revision, nor be added beside one of them that is carried.
+  void leave_open(const std::vector<EffectEntry>& findings);
+  const std::vector<EffectEntry>& open() const { return open_; }
+  /// Whether an effect is one of these, or another law of the same finding.
+  bool is_open(const EffectEntry& entry) const;
+
   std::vector<Found> added;                                       // in the order of their choice
   const std::vector<FittedModel>& seen() const { return seen_; }  // the present one is the last
 
@@ -100,6 +112,7 @@ class Selection {
   ForwardStart start_;
   JudgedModel now_;
   std::vector<FittedModel> seen_;
+  std::vector<EffectEntry> carried_, open_;
   std::vector<std::string> banned_, waiting_;  // waiting: set aside until the model is another one
   std::map<std::string, int> failed_, taken_out_;                   // how often, by key
   std::map<std::string, std::map<std::string, std::size_t>> done_;  // states by what and key
