@@ -8,6 +8,7 @@
 #include "diagnose/constants.hpp"
 #include "effects/registry.hpp"
 #include "numbers/cholesky.hpp"
+#include "numbers/products.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -22,9 +23,9 @@ Seen seen_of(const WhitenedFit& s, const Found& found) {
   Seen out;
   out.X = motions(s, regressor_of(s, found)).topRows(s.fit_lines);
   const auto U = s.U.topRows(s.fit_lines);
-  out.X -= U * (U.transpose() * out.X).eval();
+  out.X -= U * transposed_product(U, out.X);
   out.motion = out.X * found.scored.theta;
-  Eigen::MatrixXd gram = out.X.transpose() * out.X;
+  Eigen::MatrixXd gram = gram_matrix(out.X);
   // Columns are often linearly dependent. A small ridge keeps the equations solvable.
   gram.diagonal().array() += 1e-10 * gram.diagonal().maxCoeff();
   out.gram = SymmetricSolver(gram);

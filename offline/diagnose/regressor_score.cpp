@@ -7,6 +7,7 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
 #include "numbers/gaussian.hpp"
+#include "numbers/products.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -19,8 +20,8 @@ Products products_of_joint(const WhitenedFit& s, const Regressor& regressor, con
   const auto square = s.joint_square[regressor.joint].segment(at.begin, at.size());
   Products out;
   const Eigen::MatrixXd weighed = square.asDiagonal() * S;
-  out.XX = S.transpose() * weighed;
-  out.UX = s.joint_U[regressor.joint].middleRows(at.begin, at.size()).transpose() * S;
+  out.XX = symmetric_product(S, weighed);
+  out.UX = transposed_product(s.joint_U[regressor.joint].middleRows(at.begin, at.size()), S);
   out.Xy = S.transpose() * s.joint_y[regressor.joint].segment(at.begin, at.size());
   return out;
 }
@@ -29,8 +30,8 @@ Products products_of_motions(const WhitenedFit& s, const Regressor& regressor, c
   const Eigen::Index first = at.begin * s.axes, count = at.size() * s.axes;
   const auto X = regressor.columns.middleRows(first, count);
   Products out;
-  out.XX = X.transpose() * X;
-  out.UX = s.U.middleRows(first, count).transpose() * X;
+  out.XX = gram_matrix(X);
+  out.UX = transposed_product(s.U.middleRows(first, count), X);
   out.Xy = X.transpose() * s.y.segment(first, count);
   return out;
 }
@@ -85,9 +86,7 @@ Scorer::Scorer(const WhitenedFit& whitened)
     const auto U = whitened.U.middleRows(at.begin * whitened.axes, at.size() * whitened.axes);
     const auto y = whitened.y.segment(at.begin * whitened.axes, at.size() * whitened.axes);
     Fold fold;
-    fold.UU = Eigen::MatrixXd::Zero(p, p);
-    fold.UU.selfadjointView<Eigen::Lower>().rankUpdate(U.transpose());
-    fold.UU = fold.UU.selfadjointView<Eigen::Lower>();
+    fold.UU = gram_matrix(U);
     fold.Uy = U.transpose() * y;
     fold.yy = y.squaredNorm();
     fold.without = Cholesky(I * (1.0 + kRidge) - fold.UU).solve(I);

@@ -9,6 +9,7 @@
 #include "diagnose/few_digits.hpp"
 #include "effects/registry.hpp"
 #include "numbers/gaussian.hpp"
+#include "numbers/products.hpp"
 #include "solve/series_numbers.hpp"
 
 namespace plumb::offline {
@@ -56,16 +57,16 @@ Products products_of_series(const WhitenedFit& s, const Regressor& series, const
   for (std::size_t i = 0; i < series.joints.size(); ++i) {
     const int joint = series.joints[i];
     const auto first = static_cast<Eigen::Index>(i) * each;
-    out.UX.middleCols(first, each).noalias() =
-        s.joint_U[joint].middleRows(at.begin, at.size()).transpose() * block(i);
+    out.UX.middleCols(first, each) =
+        transposed_product(s.joint_U[joint].middleRows(at.begin, at.size()), block(i));
     out.Xy.segment(first, each).noalias() =
         block(i).transpose() * s.joint_y[joint].segment(at.begin, at.size());
     for (std::size_t k = 0; k <= i; ++k) {
       const Eigen::VectorXd both =
           both_by_pose(s, joint, series.joints[k]).segment(at.begin, at.size());
       const Eigen::MatrixXd weighed = both.asDiagonal() * block(i);
-      out.XX.block(static_cast<Eigen::Index>(k) * each, first, each, each).noalias() =
-          block(k).transpose() * weighed;
+      out.XX.block(static_cast<Eigen::Index>(k) * each, first, each, each) =
+          k == i ? symmetric_product(block(i), weighed) : transposed_product(block(k), weighed);
     }
   }
   out.XX = Eigen::MatrixXd(out.XX.selfadjointView<Eigen::Upper>());

@@ -6,6 +6,7 @@
 
 #include "noise/constants.hpp"
 #include "numbers/cholesky.hpp"
+#include "numbers/products.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -61,7 +62,7 @@ Whitened whitened_by(const ScatterLines& s, const JointScatter& at) {
     for (auto& motion : out.joint) divide(root, motion.segment(line, s.axes));
     divide(root, out.unit.middleRows(line, s.axes));
   }
-  Eigen::MatrixXd information = out.model.transpose() * out.model;
+  Eigen::MatrixXd information = gram_matrix(out.model);
   information.diagonal().array() *= 1.0 + kScatterRidge;
   out.model = Cholesky(information).orthonormal(out.model);
   out.residual -= out.model * (out.model.transpose() * out.residual).eval();
@@ -121,7 +122,7 @@ void ScatterSums::add(const ScatterLines& s, const JointScatter& at) {
     divide(root, y.segment(i * s.axes, s.axes));
     divide(root, U.middleRows(i * s.axes, s.axes));
   }
-  information.noalias() += U.transpose() * U;
+  information += gram_matrix(U);
   gradient.noalias() += U.transpose() * y;
   squares += y.squaredNorm();
   lines += static_cast<double>(y.size());

@@ -7,6 +7,7 @@
 #include "arm/arm_change.hpp"
 #include "effects/registry.hpp"
 #include "numbers/gaussian.hpp"
+#include "numbers/products.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "solve/constants.hpp"
 #include "solve/descent.hpp"
@@ -83,20 +84,20 @@ class SeriesProblem {
   /// J^T J of parameters and series, without the prior of the series.
   Eigen::MatrixXd information(const SeriesPoint& at) const {
     Eigen::MatrixXd out(count() + numbers(), count() + numbers());
-    out.topLeftCorner(count(), count()) = at.J.transpose() * at.J;
+    out.topLeftCorner(count(), count()) = gram_matrix(at.J);
     Eigen::Index column = count();
     for (std::size_t s = 0; s < series_.size(); ++s) {
       const Eigen::MatrixXd& waves = waves_[s];
       const auto joint = at.joint.col(static_cast<Eigen::Index>(s));
       const Eigen::MatrixXd by_pose = sums_by_pose(joint.asDiagonal() * at.J.topRows(joint.size()));
-      out.block(0, column, count(), waves.cols()) = by_pose.transpose() * waves;
+      out.block(0, column, count(), waves.cols()) = transposed_product(by_pose, waves);
       Eigen::Index row = count();
       for (std::size_t r = 0; r <= s; ++r) {
         const Eigen::VectorXd both =
             sums_by_pose(joint.cwiseProduct(at.joint.col(static_cast<Eigen::Index>(r))));
         const Eigen::MatrixXd weighed = both.asDiagonal() * waves;
-        out.block(row, column, waves_[r].cols(), waves.cols()).noalias() =
-            waves_[r].transpose() * weighed;
+        out.block(row, column, waves_[r].cols(), waves.cols()) =
+            r == s ? symmetric_product(waves, weighed) : transposed_product(waves_[r], weighed);
         row += waves_[r].cols();
       }
       column += waves.cols();
@@ -273,8 +274,7 @@ Solution solve_with_series(const FitData& data, const ArmState& start,
   out.series_dof =
       static_cast<double>(problem.numbers()) -
       equations.variances(problem.numbers()).cwiseQuotient(problem.sigma().cwiseAbs2()).sum();
-  out.jacobian =
-      is_many(data, parameters) ? triangle_of(here.J.transpose() * here.J) : std::move(here.J);
+  out.jacobian = is_many(data, parameters) ? triangle_of(gram_matrix(here.J)) : std::move(here.J);
   out.residual = std::move(here.residual);
   out.state = std::move(here.state);
   return out;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled for AVX2. It includes nothing that other files compile too, because the linker keeps one
+// copy only of such a function, and might keep that which other processors cannot run.
+#include "numbers/product_tiles.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// Adds four numbers at once. Products are not fused with sums: every machine gives the same bits.
+struct Avx2 {
+  static constexpr int kTileOfA = 3, kTileOfB = 3;
+  using Four = double __attribute__((vector_size(32)));
+  using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+  static Four four_of(const double* at) { return *reinterpret_cast<const FourAnywhere*>(at); }
+  static void add_product(Four& sum, const Four& a, const Four& b) { sum += a * b; }
+  static void put(const Four& sum, double* out) { *reinterpret_cast<FourAnywhere*>(out) = sum; }
+};
+
+}  // namespace
+
+const ProductKernels kProductsOfAvx2{ProductTiles<Avx2, false>::add, ProductTiles<Avx2, true>::add};
+
+}  // namespace plumb::offline
