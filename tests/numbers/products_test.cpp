@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "numbers/product_tiles.hpp"
 #include "tests/random_numbers.hpp"
+#include "tests/yardstick.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -89,6 +92,29 @@ TEST(Products, HaveTheSameBitsOnEveryProcessor) {
   }
 }
 #endif
+
+/// Least processor time of several turns [s].
+template <class Work>
+double least_time(const Work& work) {
+  double least = 1e9;
+  for (int turn = 0; turn < 7; ++turn) {
+    const double begin = tests::processor_s();
+    work();
+    least = std::min(least, tests::processor_s() - begin);
+  }
+  return least;
+}
+
+// Measured: 0.5 of the whole product, which takes 0.4 of Eigen's time with AVX2 and 0.6 without.
+TEST(Products, TakeLessTimeThanEigensAndSymmetricOnesLessAgain) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(5000, 120);
+  Eigen::MatrixXd out;
+  const double eigen = least_time([&] { out.noalias() = A.transpose() * A; });
+  const double whole = least_time([&] { out = transposed_product(A, A); });
+  const double half = least_time([&] { out = gram_matrix(A); });
+  EXPECT_LT(whole, 0.85 * eigen);
+  EXPECT_LT(half, 0.75 * whole);
+}
 
 }  // namespace
 }  // namespace plumb::offline
