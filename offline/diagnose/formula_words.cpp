@@ -30,10 +30,12 @@ std::string formula_sentence(const Cell& cell, const FormulaOffer& offer, std::s
   std::vector<std::string> sizes;
   for (const auto& number : offer.numbers)
     sizes.push_back(fmt::format("{} = {}", number.name, size_words(number)));
-  return fmt::format("{}: {} ({}): held-out error {} -> {} mm. Add it: plumb add {}",
+  const std::string command =
+      place == 0 ? "" : " Add it: plumb add " + adding_arguments(cell, offer.entry, {});
+  return fmt::format("{}: {} ({}): held-out error {} -> {} mm.{}",
                      place == 0 ? "A law that fits" : "Another one", law_of(offer),
                      fmt::join(sizes, ", "), digits_mm(offer.before.mean),
-                     digits_mm(offer.after.mean), adding_arguments(cell, offer.entry, {}));
+                     digits_mm(offer.after.mean), command);
 }
 
 }  // namespace plumb::offline

@@ -194,8 +194,12 @@ TEST(FormulaWords, SayTheLawItsSizeAndHowToAddIt) {
   offer.numbers = {{"k1", "rad", 320e-6, 2e-6}};
   offer.before.mean = 106e-6;
   offer.after.mean = 19e-6;
-  EXPECT_EQ(formula_sentence(*whitened_arm().whitened.cell, offer, 0),
+  const Cell& cell = *whitened_arm().whitened.cell;
+  EXPECT_EQ(formula_sentence(cell, offer, 0),
             "A law that fits: dq5 = k1*sin(q4)*cos(q6) (k1 = 320 µrad): held-out error 0.106 -> "
+            "0.019 mm.");
+  EXPECT_EQ(formula_sentence(cell, offer, 1),
+            "Another one: dq5 = k1*sin(q4)*cos(q6) (k1 = 320 µrad): held-out error 0.106 -> "
             "0.019 mm. Add it: plumb add formula --formula 'dq5 = k1*sin(q4)*cos(q6)' --parameter "
             "'k1 [rad] ~ 0.0001'");
 }
