@@ -9,7 +9,6 @@ namespace plumb::offline {
 struct ColumnsView {
   const double* data;
   std::ptrdiff_t stride, columns;
-  const double* column(std::ptrdiff_t c) const { return data + c * stride; }
 };
 
 constexpr std::ptrdiff_t kRowsAtOnce = 256;  // of both matrices; the processor's cache holds them
@@ -46,6 +45,10 @@ class ProductTiles {
     double* sums;
   };
 
+  static const double* column(const ColumnsView& of, std::ptrdiff_t c) {
+    return of.data + c * of.stride;
+  }
+
   /// All tiles of columns k to k + width - 1 of B.
   template <int width>
   static void add_strip(const Block& block, std::ptrdiff_t k) {
@@ -57,8 +60,8 @@ class ProductTiles {
   template <int height, int width>
   static void add_tile(const Block& block, std::ptrdiff_t i, std::ptrdiff_t k) {
     const double *a[height], *b[width];
-    for (int r = 0; r < height; ++r) a[r] = block.A.column(i + r) + block.first;
-    for (int c = 0; c < width; ++c) b[c] = block.B.column(k + c) + block.first;
+    for (int r = 0; r < height; ++r) a[r] = column(block.A, i + r) + block.first;
+    for (int c = 0; c < width; ++c) b[c] = column(block.B, k + c) + block.first;
     Four sum[height][width];
     for (int r = 0; r < height; ++r)
       for (int c = 0; c < width; ++c) sum[r][c] = Four{};
