@@ -155,6 +155,7 @@ constexpr OtherMeaning kOtherMeanings[] = {
     {"formula/names.cpp", "step"},              // a function of formulas
     {"import/words.cpp", "tracker"},            // a word of column names
     {"show/check_json.cpp", "step"},            // keys of what the verbs print with --json
+    {"show/diagnose_json.cpp", "formula"},
     {"show/fit_view.cpp", "geometry"},
     {"show/model_view.cpp", "formula"},
     {"show/planar_view.cpp", "link_flexure"},  // a row of the study's table

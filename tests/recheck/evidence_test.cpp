@@ -198,7 +198,9 @@ TEST_F(RecheckEvidence, AnEffectOfAnAbsurdSizeIsNotPlausible) {
   Judged judged;
   judged.begin = {0};
   judged.state = arm.state;
-  judged.state.arm.effects = {bind_effect(arm.cell, arm.poses(5, 4), entry)};
+  Measurements rows = arm.poses(5, 4);
+  rows.context.direction = RowsN::Ones(5, 3);
+  judged.state.arm.effects = {bind_effect(arm.cell, rows, entry)};
   judged.x_covariance = Eigen::MatrixXd::Constant(1, 1, 1e-12);
   Change change{.part = Part::kJoint, .joint = 1, .effect = entry.name};
   change.parameters = {effect_parameters(judged.state.arm).front()};
