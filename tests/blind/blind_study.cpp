@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blind study: arms with something hidden, diagnosed by who never sees the truth.
 //   blind_study [CASES] [SEED] [POSES] [--list]
+//   blind_study --narrow [CASES] [SEED] [POSES] [--list]
 //   blind_study --inconvenient [--kind NUMBER] [CASES] [SEED] [POSES] [--list]
 // With POSES: the first CASES cases that have so many. --kind: arms of one kind alone, numbered
 // from 0 as in its table. --case NUMBER: that case of --list alone.
@@ -13,6 +14,8 @@
 #include "tests/blind/inconvenient_case.hpp"
 #include "tests/blind/inconvenient_marks.hpp"
 #include "tests/blind/marks.hpp"
+#include "tests/blind/narrow_case.hpp"
+#include "tests/blind/narrow_marks.hpp"
 #include "tests/blind/study.hpp"
 
 int main(int argc, char** argv) {
@@ -20,6 +23,7 @@ int main(int argc, char** argv) {
   const auto asked_for = [&words](const char* option) { return std::erase(words, option) > 0; };
   const bool list = asked_for("--list");
   const bool inconvenient = asked_for("--inconvenient");
+  const bool narrow = asked_for("--narrow");
   const auto number_after = [&words](const char* option) {
     const auto at = std::find(words.begin(), words.end(), option);
     if (at == words.end() || at + 1 == words.end()) return -1;
@@ -35,6 +39,7 @@ int main(int argc, char** argv) {
   const auto draw = [=](int number) {
     if (kind >= 0)
       number = number * static_cast<int>(plumb::tests::inconvenient_kinds().size()) + kind;
+    if (narrow) return plumb::tests::draw_narrow_case(seed, number);
     return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
                         : plumb::tests::draw_case(seed, number);
   };
@@ -49,9 +54,11 @@ int main(int argc, char** argv) {
       });
   for (std::size_t i = 0; list && i < scores.size(); ++i)
     std::printf("%s\n", plumb::tests::line_of(numbers[i], scores[i]).c_str());
-  const auto marks = inconvenient ? plumb::tests::inconvenient_marks_of(scores, 2.0)
-                                  : plumb::tests::marks_of(scores, 2.0);
+  const auto marks = narrow         ? plumb::tests::narrow_marks_of(scores, 2.0)
+                     : inconvenient ? plumb::tests::inconvenient_marks_of(scores, 2.0)
+                                    : plumb::tests::marks_of(scores, 2.0);
   std::printf("%s", plumb::tests::table_of(marks).c_str());
+  if (narrow) std::printf("\n%s", plumb::tests::narrow_table_of(scores).c_str());
   if (inconvenient) std::printf("\n%s", plumb::tests::inconvenient_tables_of(scores).c_str());
   return std::all_of(marks.begin(), marks.end(), [](const auto& m) { return m.passed; }) ? 0 : 1;
 }

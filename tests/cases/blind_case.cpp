@@ -127,6 +127,8 @@ RowsN level_poses(const Cell& cell, int poses, Random random) {
 }
 
 void choose_poses(const BlindRequest& request, const Cell& cell, SimulationPlan& plan) {
+  if (request.field != PoseField::kAnywhere)
+    plan.q = poses_on(request.field, cell, plan.poses, request.seed, plan.seed);
   if (request.arm != BlindArm::kPalletiser) return;
   plan.q = level_poses(cell, plan.poses, {plan.seed, "level poses"});
 }
@@ -170,6 +172,16 @@ SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
                                       sim::kPalletiserCoupled.end());
   }
   choose_poses(request, cell, plan);
+  return plan;
+}
+
+// Effects have the size that poses anywhere show; along a path, geometry imitates most of them.
+SimulationPlan along_a_path(const BlindRequest& request, const Cell& cell, SimulationPlan plan) {
+  if (request.field == PoseField::kAnywhere) return plan;
+  SimulationPlan anywhere = plan;
+  anywhere.q.resize(0, 0);
+  plan.truth.sized = simulate(cell, anywhere).effects;
+  plan.truth.effects.clear();
   return plan;
 }
 
@@ -219,7 +231,7 @@ BlindCase make_blind_case(const BlindRequest& request) {
   cell.measurement.sigma_m = request.sigma_m;
   cell.measurement.files = {"measurements.csv"};
   out.cell = stated(cell, request.masses);
-  const SimulationPlan plan = plan_of(request, cell);
+  const SimulationPlan plan = along_a_path(request, cell, plan_of(request, cell));
   out.measured = simulate(cell, plan);
   const auto again = [&](const SimulationPlan& fresh) {
     return measured_again(cell, fresh, out.measured);

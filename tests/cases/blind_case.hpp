@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulate/simulate.hpp"
+#include "tests/cases/path_poses.hpp"
 
 namespace plumb::offline {
 
@@ -45,6 +46,7 @@ struct BlindRequest {
   double outlier_share = 0.0;
   double session_s = 3.0 * 3600.0;
   PoseChoice choice;
+  PoseField field = PoseField::kAnywhere;  // an effect has the same size on a path
   /// kVaried: three payloads, each with its own centre of mass. kConstant: the payload of the cell
   /// only.
   enum class Payloads { kVaried, kConstant } payloads = Payloads::kVaried;
