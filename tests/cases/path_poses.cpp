@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -112,8 +113,9 @@ std::optional<RowsN> followed(const Cell& cell, const sim::Arm& arm, const Place
   return out;
 }
 
-/// Points of the path in its order, (poses, 2): evenly spread, each at a random place of its share.
-Eigen::MatrixXd points_of(PoseField field, int poses, Random random) {
+/// Points of the path in its order, (poses, 2). coordinate: of place k of so many on a side.
+Eigen::MatrixXd points_of(PoseField field, int poses,
+                          const std::function<double(int k, int side)>& coordinate) {
   Eigen::MatrixXd out(poses, 2);
   const int side = field == PoseField::kSurface
                        ? std::max(2, static_cast<int>(std::ceil(std::sqrt(poses))))
@@ -121,9 +123,8 @@ Eigen::MatrixXd points_of(PoseField field, int poses, Random random) {
   for (int i = 0; i < poses; ++i) {
     const int row = i / side, at = i % side;
     const int column = row % 2 == 0 ? at : side - 1 - at;  // to and fro
-    const auto coordinate = [&](int k) { return (k + random.uniform()) / side; };
-    out(i, 0) = coordinate(column);
-    out(i, 1) = coordinate(row);
+    out(i, 0) = coordinate(column, side);
+    out(i, 1) = coordinate(row, side);
   }
   return out;
 }
@@ -136,7 +137,8 @@ struct Reached {
 
 Reached reached_path(PoseField field, const Cell& cell, const sim::Arm& arm, Random random) {
   const Eigen::MatrixXd probes =
-      points_of(field, field == PoseField::kSurface ? kProbes * kProbes : kProbes, random);
+      points_of(field, field == PoseField::kSurface ? kProbes * kProbes : kProbes,
+                [](int k, int side) { return k / (side - 1.0); });  // its ends among them
   for (int attempt = 0; attempt < kTries; ++attempt) {
     Eigen::VectorXd q(6);
     for (int j = 0; j < 6; ++j) {
@@ -157,8 +159,11 @@ RowsN poses_on(PoseField field, const Cell& cell, int poses, std::uint64_t field
                std::uint64_t seed) {
   const sim::Arm arm(cell.nominal);
   const Reached path = reached_path(field, cell, arm, {field_seed, "place of a path"});
-  const auto out = followed(cell, arm, path.place,
-                            points_of(field, poses, {seed, "points of a path"}), kOfPoses, path.q);
+  Random random(seed, "points of a path");
+  // Each at a random place of its share of the path.
+  const auto points =
+      points_of(field, poses, [&](int k, int side) { return (k + random.uniform()) / side; });
+  const auto out = followed(cell, arm, path.place, points, kOfPoses, path.q);
   if (!out) throw std::runtime_error("the arm leaves its path");
   return *out;
 }
