@@ -61,6 +61,9 @@ inline constexpr double kNoticed = 20.0;
 /// Two explanations whose points differ by less than this share of the tolerance are one motion.
 /// belief.
 inline constexpr double kSamePoints = 0.5;
+/// Times its usual size that an effect may have after a change: what broke may err hundreds of
+/// times as much as usual, nothing thousands of times. arms.
+inline constexpr double kMostTimesAfterChange = 1000.0;
 /// A change is hardly ever larger [typical sizes]. belief.
 inline constexpr double kWidest = 10.0;
 

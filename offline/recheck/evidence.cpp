@@ -86,9 +86,9 @@ bool sizes_plausible(const std::vector<Change>& changes, std::size_t k, const Ju
       changes[k].parameters.begin(), changes[k].parameters.end(), [&](const Parameter& p) {
         const double std = std::sqrt(std::max(0.0, judged.x_covariance(number, number)));
         ++number;
-        return !p.of_effect() ||
-               plausible(value_of(judged.state, p), std,
-                         effect_parameter(judged.state.arm, p.joint, p.component));
+        if (!p.of_effect()) return true;
+        const EffectParameter info = effect_parameter(judged.state.arm, p.joint, p.component);
+        return times_usual(value_of(judged.state, p), std, info) <= kMostTimesAfterChange;
       });
 }
 

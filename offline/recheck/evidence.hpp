@@ -41,8 +41,8 @@ struct Judged {
   double chi2 = 0.0;                // of what is left, (r - B x)^T S^-1 (r - B x), prior counted
 };
 
-/// Whether an arm may well have every effect that change `k` of these altered, in the size that was
-/// judged. Poses that hardly move with an effect would explain an error by any size of it.
+/// Whether even a broken arm may have every effect that change `k` of these altered, in the size
+/// that was judged. Poses that hardly move with an effect would explain an error by any size of it.
 bool sizes_plausible(const std::vector<Change>& changes, std::size_t k, const Judged& judged);
 
 /// Judges changes against readings. Keeps references to what it is given.

@@ -207,6 +207,8 @@ TEST_F(RecheckEvidence, AnEffectOfAnAbsurdSizeIsNotPlausible) {
   double& size = judged.state.arm.effects.front().parameters.front();
   size = 50e-6;
   EXPECT_TRUE(sizes_plausible({change}, 0, judged));
+  size = 100.0 * effect_parameter(judged.state.arm, 0, 0).typical;
+  EXPECT_TRUE(sizes_plausible({change}, 0, judged)) << "what broke may err much more than usual";
   size = 0.446;
   EXPECT_FALSE(sizes_plausible({change}, 0, judged));
   Judged two = judged;
