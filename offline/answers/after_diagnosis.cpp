@@ -46,11 +46,14 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
       out.push_back(separating(cell, first.entry, rival->entry) + "   # to be sure which it is");
     return out;
   }
-  if (finding == Finding::kUnknown && !d.formulas.empty())
-    return {"add " + adding_arguments(cell, d.formulas.front().entry, {}) +
-                "   # the law that fits best",
-            "compare   # where is it, and since when?"};
-  if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
+  if (finding == Finding::kUnknown) {
+    std::vector<std::string> out;
+    if (!d.formulas.empty())
+      out.push_back("add " + adding_arguments(cell, d.formulas.front().entry, {}) +
+                    "   # the law that fits best");
+    out.emplace_back("compare   # where is it, and since when?");
+    return out;
+  }
   const bool step_or_slow =
       d.undecided ? d.undecided->slow_motion.has_value() : d.slow_motion && !d.finding_after;
   if (step_or_slow) return {"compare   # the errors in order of time: do they jump, or creep?"};

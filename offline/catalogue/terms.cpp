@@ -129,8 +129,8 @@ constexpr Explanation kTerms[] = {
      "Of a diagnosis: two or more effects explain the readings nearly as well (a lead of less "
      "than 10 nats names the wrong one in every third case), and each can imitate the other. The "
      "error falls as far with either. plumb diagnose --apply adds the first, but none of them "
-     "where "
-     "one would be compiled and another thrown away; what else is supported beside them it adds. "
+     "where one would be compiled and another thrown away; what else is supported beside them it "
+     "adds. "
      "plumb plan --separate A,B proposes poses that tell."},
     {"Certain",
      "Of the first candidate: the evidence speaks for it by far, and no other candidate is near "

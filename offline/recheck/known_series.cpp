@@ -9,7 +9,7 @@
 namespace plumb::offline::recheck {
 
 KnownNumbers with_series(KnownNumbers known, const ArmState& state, const Run& calibrated,
-                         const Measurements& own) {
+                         const Measurements& own, double sigma_m) {
   if (!has_series(state)) return known;
   // Where frame and target were makes no difference to what a reading says about a wave.
   Measurements in_one_setup = own;
@@ -17,7 +17,7 @@ KnownNumbers with_series(KnownNumbers known, const ArmState& state, const Run& c
   FitData data;
   data.measured = &in_one_setup;
   data.rows = fitted_rows(calibrated, own);
-  data.sigma_m = Rows3::Constant(own.size(), 3, expected_sigma(calibrated, own));
+  data.sigma_m = Rows3::Constant(own.size(), 3, sigma_m);
   const Eigen::MatrixXd information = series_information(data, state, known.parameters);
   const auto old = static_cast<Eigen::Index>(known.parameters.size());
   const Eigen::Index added = information.rows() - old;

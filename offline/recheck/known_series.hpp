@@ -14,8 +14,9 @@ namespace plumb::offline::recheck {
 /// @param known       In the set-up of the new readings.
 /// @param state       In that set-up alone.
 /// @param calibrated  The run that was fitted to `own`.
+/// @param sigma_m     1 sigma of a coordinate of its readings, as expected_sigma.
 /// Cost: as one step of its fit; nothing for a model without series.
 KnownNumbers with_series(KnownNumbers known, const ArmState& state, const Run& calibrated,
-                         const Measurements& own);
+                         const Measurements& own, double sigma_m);
 
 }  // namespace plumb::offline::recheck

@@ -82,13 +82,6 @@ Eigen::MatrixXd anew_at_each_pose(const std::vector<int>& pose, const Eigen::Vec
   return out;
 }
 
-/// How many times its usual scatter the model may lack of readings where it has never been tried,
-/// beside the usual view: nobody knows.
-std::vector<double> more_than_usual(const Readings& readings) {
-  if (readings.elsewhere == 0) return {};
-  return {kLacksElsewhere.begin(), kLacksElsewhere.end()};
-}
-
 /// Residuals of the calibration on its own readings.
 struct OldErrors {
   Rows3 error_M;          // of all rows [m]
@@ -156,13 +149,14 @@ Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurem
       Eigen::VectorXd::Constant(out.rows.size(), std::pow(out.lacks_m, 2));
   const Eigen::MatrixXd anew = anew_at_each_pose(pose, usual);
   out.expected.push_back({nothing, covariance_of(out, noise_m, anew)});
-  for (const double times : more_than_usual(out)) {
-    const Eigen::VectorXd more = untried * std::pow(times * out.sigma_m(), 2);
-    out.expected.push_back(
-        {.mean_B = nothing,
-         .covariance = covariance_of(out, noise_m, anew + anew_at_each_pose(pose, more)),
-         .lacks_elsewhere = true});
-  }
+  if (out.elsewhere > 0)
+    for (const double times : kLacksElsewhere) {
+      const Eigen::VectorXd more = untried * std::pow(times * out.sigma_m(), 2);
+      out.expected.push_back(
+          {.mean_B = nothing,
+           .covariance = covariance_of(out, noise_m, anew + anew_at_each_pose(pose, more)),
+           .lacks_elsewhere = true});
+    }
   const bool same_axes = own.has_axis == out.rows.has_axis;
   if (!same_axes || out.lacks_m <= kSmallShare * out.noise_m || old.rows.empty()) return out;
   const Rows3 error_B = to_base(calibrated.fit.calibration.state, own, old.error_M);

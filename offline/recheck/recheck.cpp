@@ -188,9 +188,10 @@ std::vector<Change> kept_changes(const Search& search, const std::vector<FoundCh
 Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
                     const Measurements& own, Measurements rows, const Assumed& assumed) {
   LastSetup setup = last_setup(run);
-  setup.known = with_series(std::move(setup.known), setup.state, calibrated, own);
   place_at_the_end(own, rows);
   const Readings readings = expect_readings(cell, calibrated, own, std::move(rows));
+  setup.known =
+      with_series(std::move(setup.known), setup.state, calibrated, own, readings.sigma_m());
   const ArmState extended = with_room_for_changes(cell, own, readings.rows, setup.state);
   const Measurements poses = poses_of(own, calibrated);
   std::vector<Change> possible = possible_changes(cell, extended, poses, readings.poses);

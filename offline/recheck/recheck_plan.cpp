@@ -76,7 +76,6 @@ std::vector<int> best_rows(const Eigen::MatrixXd& columns, int axes, int n) {
 RecheckPlan plan_recheck(const Cell& cell, const Run& calibrated, const Run& run,
                          const Measurements& own, int n) {
   LastSetup setup = last_setup(run);
-  setup.known = with_series(std::move(setup.known), setup.state, calibrated, own);
   const std::vector<int> known = different_poses(calibrated, own);
   Measurements poses = pick(own, known);
   poses.setup.clear();
@@ -89,6 +88,8 @@ RecheckPlan plan_recheck(const Cell& cell, const Run& calibrated, const Run& run
   for (const int i : chosen) out.rows.push_back(known[static_cast<std::size_t>(i)]);
   const Measurements few = pick(poses, chosen);
   const Readings readings = expect_readings(cell, calibrated, own, few);
+  setup.known =
+      with_series(std::move(setup.known), setup.state, calibrated, own, readings.sigma_m());
   const Judge judge(readings, extended, setup.known);
   out.visible = visibility(changes, few, poses, extended, judge.judge({}).S);
   return out;

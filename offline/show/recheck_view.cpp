@@ -105,8 +105,7 @@ std::string undecidable_sentence(const Cell& cell, const Recheck& found, const R
   if (found.only_elsewhere)
     return fmt::format(
         "{} {} cannot tell: run {} misses them by {} mm (mean), but {} lie where its calibration "
-        "had "
-        "no pose nearby, so the model may always have missed there by as much.",
+        "had no pose nearby, so the model may always have missed there by as much.",
         found.readings == 1 ? "This" : "These", poses_words(found), run.number,
         mm(found.before.mean),
         found.elsewhere == found.readings

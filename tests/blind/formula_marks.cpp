@@ -57,10 +57,7 @@ std::string formula_table_of(const std::vector<Score>& scores) {
       std::vector<double> some;
       for (const Score* s : all)
         if (is_offered(*s)) some.push_back((*s->formula).*value);
-      if (some.empty()) return std::string("-");
-      std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2),
-                       some.end());
-      return fmt::format("{:.2f}", some[some.size() / 2]);
+      return some.empty() ? std::string("-") : fmt::format("{:.2f}", median_of(some));
     };
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {}, {} |\n", law, all.size(),
                        count(is_called_unknown), count(is_offered),

@@ -34,8 +34,6 @@ bool is_clear(const Score& s) {
   return hides_known(s) && named && !s.claims->either && s.claims->lead > kClearLead_nats;
 }
 
-bool is_worse(const Score& s) { return s.after > 1.02 * s.before + 0.02; }
-
 void add_held_out(MarkList& m) {
   for (const auto& [poses, within] : {std::pair{45, 0.20}, std::pair{500, 0.08}})
     m.at_least(

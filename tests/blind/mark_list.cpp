@@ -13,6 +13,14 @@ constexpr std::size_t kFewestForAMedian = 5;
 
 }  // namespace
 
+bool is_worse(const Score& s) { return s.after > 1.02 * s.before + 0.02; }
+
+double median_of(std::vector<double> numbers) {
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
 void MarkList::at_least(const std::string& what, double share, const Which& of,
                         const Which& holds) {
   add_share(what, share, of, holds, true);
@@ -28,8 +36,7 @@ void MarkList::median_at_most(const std::string& what, double limit, const Which
   for (const auto& s : scores_)
     if (s.made && of(s)) all.push_back(value(s));
   if (all.size() < kFewestForAMedian) return;
-  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
-  const double median = all[all.size() / 2];
+  const double median = median_of(all);
   // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for sigma.
   const double granted = 0.3 * granted_ * limit / std::sqrt(static_cast<double>(all.size()));
   marks_.push_back({what, fmt::format("{:.2f} of {}", median, all.size()),

@@ -11,6 +11,12 @@ namespace plumb::tests {
 
 using Which = std::function<bool(const Score&)>;
 
+/// Whether what was added made the error at new poses larger than that of geometry alone.
+bool is_worse(const Score& s);
+
+/// Of at least one number; the upper of the two in the middle.
+double median_of(std::vector<double> numbers);
+
 /// Marks of a study, added one by one: shares and medians of the cases that `of` picks. A mark to
 /// which no case belongs is left out.
 class MarkList {

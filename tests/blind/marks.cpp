@@ -104,7 +104,7 @@ void add_errors(MarkList& m) {
       [](const Score& s) { return s.with_tree <= 1.01 * s.after + 0.02; });
   m.at_most(
       "worse than geometry only", 0.005, [](const Score& s) { return !hides_tracker(s); },
-      [](const Score& s) { return s.after > 1.02 * s.before + 0.02; });
+      is_worse);
 }
 
 std::string result_of(const Mark& mark) {

@@ -54,7 +54,7 @@ TEST_F(KnownSeries, IsTheCovarianceOfAllNumbersFittedTogether) {
   const SeriesNumbers series = series_numbers(arm.state.arm).front();
   const Eigen::MatrixXd expected = plain(all, series.sigma, sigma);
   known.covariance = expected.topLeftCorner(2, 2);
-  const KnownNumbers out = with_series(known, arm.state, run, own);
+  const KnownNumbers out = with_series(known, arm.state, run, own, sigma);
   ASSERT_EQ(out.parameters.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(out.parameters[i].name, all[i].name);
   const Eigen::VectorXd std = expected.diagonal().cwiseSqrt();
@@ -66,7 +66,8 @@ TEST_F(KnownSeries, IsTheCovarianceOfAllNumbersFittedTogether) {
 /// Where J2 was measured, numbers and waves make up for each other and the point is known within
 /// the noise; where it was not, only by the prior.
 TEST_F(KnownSeries, ThePointIsKnownWhereItWasMeasuredAndNotElsewhere) {
-  const KnownNumbers out = with_series(arm.known(5e-5), arm.state, run, own);
+  const KnownNumbers out =
+      with_series(arm.known(5e-5), arm.state, run, own, expected_sigma(run, own));
   const auto sigma_at = [&](double q2) {
     Measurements at = arm.poses(1, 7);
     at.q(0, 1) = q2;
@@ -79,7 +80,8 @@ TEST_F(KnownSeries, ThePointIsKnownWhereItWasMeasuredAndNotElsewhere) {
 
 TEST_F(KnownSeries, AModelWithoutSeriesKeepsWhatItKnows) {
   arm.state.arm.effects.clear();
-  const KnownNumbers out = with_series(arm.known(1e-5), arm.state, run, own);
+  const KnownNumbers out =
+      with_series(arm.known(1e-5), arm.state, run, own, expected_sigma(run, own));
   EXPECT_EQ(out.parameters.size(), 2U);
   EXPECT_EQ(out.covariance, arm.known(1e-5).covariance);
 }
