@@ -8,21 +8,22 @@ namespace {
 struct AnyMachine {
   static constexpr int kTileOfA = 2, kTileOfB = 2;
   using Two = double __attribute__((vector_size(16)));
-  using TwoAnywhere = double __attribute__((vector_size(16), aligned(8), may_alias));
   struct Four {
     Two low, high;
   };
-  static Four four_of(const double* at) {
-    return {*reinterpret_cast<const TwoAnywhere*>(at),
-            *reinterpret_cast<const TwoAnywhere*>(at + 2)};
+  static Two two_of(const double* at) {
+    Two out;
+    __builtin_memcpy(&out, at, sizeof out);  // one unaligned load
+    return out;
   }
+  static Four four_of(const double* at) { return {two_of(at), two_of(at + 2)}; }
   static void add_product(Four& sum, const Four& a, const Four& b) {
     sum.low += a.low * b.low;
     sum.high += a.high * b.high;
   }
   static void put(const Four& sum, double* out) {
-    *reinterpret_cast<TwoAnywhere*>(out) = sum.low;
-    *reinterpret_cast<TwoAnywhere*>(out + 2) = sum.high;
+    __builtin_memcpy(out, &sum.low, sizeof sum.low);
+    __builtin_memcpy(out + 2, &sum.high, sizeof sum.high);
   }
 };
 
