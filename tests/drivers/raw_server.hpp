@@ -121,6 +121,15 @@ class RawServer {
     return status[14] == 0 && status[15] == 0 ? -1 : status[1];
   }
   bool sees(drivers::SessionState wanted) { return state() == static_cast<int>(wanted); }
+  /// Whether plumb-rt has written that state since there were so many writes, however shortly.
+  bool has_seen(drivers::SessionState wanted, std::size_t since) {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(writes_.begin() + static_cast<std::ptrdiff_t>(since), writes_.end(),
+                       [wanted](const Write& write) {
+                         return write.first == kStatus &&
+                                write.words[1] == static_cast<int>(wanted);
+                       });
+  }
 
   /// The largest step between two answers in a row, by the most time that may lie between them
   /// [m/s]: an answer was computed after its target stood here, and before it came.
