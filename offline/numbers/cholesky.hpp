@@ -32,6 +32,9 @@ class Cholesky {
   /// B L^-T: the columns of B are orthonormal if A was B^T B.
   Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& B) const;
 
+  /// The last `count` numbers of the diagonal of A^-1. Cost: count^3 / 6.
+  Eigen::VectorXd inverse_diagonal(Eigen::Index count) const;
+
   double ln_det() const;
   Eigen::MatrixXd lower() const;  // L
 

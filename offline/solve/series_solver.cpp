@@ -189,9 +189,7 @@ class SeriesEquations {
 
   /// Variances of the last `count` unknowns: the diagonal of the inverse.
   Eigen::VectorXd variances(Eigen::Index count) const {
-    const Eigen::MatrixXd half = llt_.whitened(
-        Eigen::MatrixXd(Eigen::MatrixXd::Identity(scale_.size(), scale_.size()).rightCols(count)));
-    return half.colwise().squaredNorm().transpose().cwiseProduct(scale_.tail(count).cwiseAbs2());
+    return llt_.inverse_diagonal(count).cwiseProduct(scale_.tail(count).cwiseAbs2());
   }
   /// Information on the `first` unknowns with the others unknown: the Schur complement.
   Eigen::MatrixXd marginal(Eigen::Index first) const {

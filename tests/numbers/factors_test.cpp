@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "numbers/cholesky.hpp"
 #include "numbers/lu.hpp"
@@ -38,6 +39,24 @@ TEST(Factors, CholeskySolvesWhitensAndMeasures) {
   EXPECT_LT((Q.transpose() * Q - MatrixXd::Identity(5, 5)).norm(), 1e-10);
   EXPECT_NEAR(factor.ln_det(), std::log(determinant(kSquare)), 1e-10);
   EXPECT_FALSE(Cholesky(-kSquare).exists());
+}
+
+/// Independent columns, however many, always the same ones.
+MatrixXd independent(Eigen::Index rows, Eigen::Index columns) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+}
+
+// Of many columns a part is inverted at once; 131 is no multiple of such a part.
+TEST(Factors, TheInverseHasThatDiagonal) {
+  const MatrixXd tall = independent(300, 131);
+  const MatrixXd A = tall.transpose() * tall;
+  const VectorXd exact = inverse(A).diagonal();
+  const Cholesky factor(A);
+  EXPECT_LT((factor.inverse_diagonal(131) - exact).norm(), 1e-12 * exact.norm());
+  EXPECT_LT((factor.inverse_diagonal(50) - exact.tail(50)).norm(), 1e-12 * exact.norm());
+  EXPECT_EQ(factor.inverse_diagonal(0).size(), 0);
 }
 
 TEST(Factors, ASymmetricMatrixMayBeIndefinite) {
