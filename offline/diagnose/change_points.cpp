@@ -62,7 +62,8 @@ class CutSearch {
         order_(poses_in_order(s)),
         scale_(evidence_scale(s)),
         behind_(motions_.cols(), s.rank),
-        U_(s.U.topRows(s.fit_lines)),
+        model_(s.U.topRows(s.fit_lines).transpose()),
+        others_(0, s.fit_lines),
         y_(s.y.head(s.fit_lines)),
         Q_(s.Q) {}
 
@@ -79,13 +80,11 @@ class CutSearch {
     const Eigen::MatrixXd others = cleared(s_, part.columns(cuts));
     scale_ = evidence_scale(s_);
     scale_.lines = std::max(1.0, scale_.lines - static_cast<double>(others.cols()));
-    U_.resize(s_.fit_lines, s_.rank + others.cols());
-    U_.leftCols(s_.rank) = s_.U.topRows(s_.fit_lines);
-    U_.rightCols(others.cols()) = others;
+    others_ = others.transpose();
     y_ = s_.y.head(s_.fit_lines);
     y_ -= others * (others.transpose() * y_).eval();
     Q_ = y_.squaredNorm();
-    behind_ = RunningSums(motions_.cols(), U_.cols());
+    behind_ = RunningSums(motions_.cols(), s_.rank + others.cols());
   }
 
   /// The best of these cuts, by ln_bayes() or explained() of the motion behind it. `score_of(cut)`
@@ -118,8 +117,10 @@ class CutSearch {
  private:
   void pass(int visit) {
     const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
-    behind_.add(motions_.middleRows(at, s_.axes), y_.segment(at, s_.axes),
-                U_.middleRows(at, s_.axes));
+    const auto X = motions_.middleRows(at, s_.axes);
+    behind_.add(X, y_.segment(at, s_.axes));
+    behind_.UX.topRows(s_.rank) += model_.middleCols(at, s_.axes).lazyProduct(X);
+    behind_.UX.bottomRows(others_.rows()) += others_.middleCols(at, s_.axes).lazyProduct(X);
   }
   RunningSums::Square gram() const { return behind_.XX - behind_.UX.transpose() * behind_.UX; }
 
@@ -143,7 +144,9 @@ class CutSearch {
   std::vector<Eigen::Index> order_;
   EvidenceScale scale_;
   RunningSums behind_;
-  Eigen::MatrixXd U_;  // of the model and the other moves
+  /// Columns of the model and of the other moves, orthonormal. Each is stored as a row, because
+  /// the lines of a pose are read together: (rank, fit lines), (c, fit lines).
+  Eigen::MatrixXd model_, others_;
   Eigen::VectorXd y_;
   double Q_;
 };

@@ -7,7 +7,7 @@ namespace plumb::offline {
 
 /// Running sums over visits for a least-squares fit of the residual y by the motions of one part:
 /// X^T X and X^T y, where X has one column for each number of the motion (at most 6). UX is U^T X
-/// with the columns U of a model, and has no rows if there is no model.
+/// with the columns U of a model: who has such a model sums it, else it has no rows.
 struct RunningSums {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
   using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -22,13 +22,6 @@ struct RunningSums {
   void add(const Motions& X, const Residual& y) {
     XX.noalias() += X.transpose() * X;
     Xy.noalias() += X.transpose() * y;
-  }
-
-  /// The same with the columns U of a model, shape (axes, model_columns).
-  template <class Motions, class Residual, class Model>
-  void add(const Motions& X, const Residual& y, const Model& U) {
-    add(X, y);
-    UX.noalias() += U.transpose() * X;
   }
 
   Square XX;
