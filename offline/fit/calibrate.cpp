@@ -20,6 +20,7 @@
 #include "fit/pose_sense.hpp"
 #include "fit/unknown_numbers.hpp"
 #include "noise/weights.hpp"
+#include "numbers/products.hpp"
 #include "program/file.hpp"
 #include "solve/constants.hpp"
 #include "solve/descent.hpp"
@@ -156,7 +157,7 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
       std::sqrt(solution.residual.head(without_weak).squaredNorm() / static_cast<double>(dof));
   out.covariance = inverse_information(J) * std::pow(std::max(1.0, out.sigma0), 2);
   out.decided = static_cast<double>(count);
-  out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
+  out.calibrability = calibrability(sigma * sigma * gram_matrix(J), subset.kept);
   out.state = solution.state;
   out.estimates = estimates_of(solution.state, nominal, subset.kept, out.covariance);
   out.parameters = subset.kept;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "numbers/cholesky.hpp"
+#include "numbers/products.hpp"
 #include "numbers/triangle.hpp"
 #include "solve/constants.hpp"
 #include "solve/jacobian_visit.hpp"
@@ -18,7 +19,7 @@ namespace {
 Eigen::MatrixXd orthonormal_rows(const Eigen::MatrixXd& J) {
   const Eigen::VectorXd scale = per_norm(J);
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
-  return Cholesky(scaled.transpose() * scaled).orthonormal(scaled);
+  return Cholesky(gram_matrix(scaled)).orthonormal(scaled);
 }
 
 /// The lines of one pose, at most six.
