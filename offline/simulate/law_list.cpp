@@ -167,6 +167,42 @@ void add_outside_laws(std::vector<LawEntry>& all) {
           make_directed_sine, Needs::kDirection);
 }
 
+/// Causes that look like others, for the study of them.
+void add_imitating_laws(std::vector<LawEntry>& all) {
+  all.push_back(called(
+      of_joints("encoder_counts", "one wrong number of counts a turn at all joints; size: a radian",
+                make_encoder_counts),
+      "encoder_scale"));
+  all.push_back(called(
+      of_arm("axial_play", "J1 lifts and sinks on its axis as the arm leans; size: half the play",
+             Size::kLength, Domain::kRobot, make_axial_play),
+      "unknown"));
+  all.push_back(
+      like(called(of_arm("moving_air", "moving air bends the tracker's beam; size: at 4 m",
+                         Size::kLength, Domain::kMeasurement, make_moving_air),
+                  "unknown"),
+           {"drift"}));
+  all.push_back(called(
+      of_arm("rocking_base", "the base rocks about one edge, to one side; size: largest angle",
+             Size::kAngle, Domain::kRobot, make_rocking_base),
+      "base_compliance"));
+  all.push_back(like(called(of_arm("unsensed_growth",
+                                   "as thermal_growth, but no sensor is needed; size: arm, 10 K",
+                                   Size::kLength, Domain::kEnvironment, make_unsensed_growth),
+                            "unknown"),
+                     {"thermal_growth"}));
+  all.push_back(
+      with_keys(called(of_joints("parallelogram_wave",
+                                 "a motor's wave by q of the joint before and its own; @cycles=2",
+                                 make_parallelogram_wave),
+                       "unknown"),
+                {"cycles"}));
+  LawEntry sun = of_joints("sunny_link", "the sun bends a link to one side; size: shift behind it",
+                           make_sunny_link);
+  sun.size = Size::kLength;
+  all.push_back(called(during(std::move(sun), Domain::kEnvironment), "unknown"));
+}
+
 void add_planar_laws(std::vector<LawEntry>& all) {
   all.push_back(called(
       of_arm("planar_published", "beams of the planar study, as its printed figures need them",
@@ -190,6 +226,7 @@ const std::vector<LawEntry>& law_entries() {
     add_planar_laws(all);
     add_inconvenient_laws(all);
     add_outside_laws(all);
+    add_imitating_laws(all);
     return all;
   }();
   return entries;

@@ -45,6 +45,13 @@ MadeLaw make_tool_wander(const HiddenEffect& effect, const World& world);
 MadeLaw make_folded_sine(const HiddenEffect& effect, const World& world);
 MadeLaw make_growing(const HiddenEffect& effect, const World& world);
 MadeLaw make_directed_sine(const HiddenEffect& effect, const World& world);
+MadeLaw make_encoder_counts(const HiddenEffect& effect, const World& world);
+MadeLaw make_axial_play(const HiddenEffect& effect, const World& world);
+MadeLaw make_moving_air(const HiddenEffect& effect, const World& world);
+MadeLaw make_rocking_base(const HiddenEffect& effect, const World& world);
+MadeLaw make_unsensed_growth(const HiddenEffect& effect, const World& world);
+MadeLaw make_parallelogram_wave(const HiddenEffect& effect, const World& world);
+MadeLaw make_sunny_link(const HiddenEffect& effect, const World& world);
 MadeLaw make_planar_published(const HiddenEffect& effect, const World& world);
 MadeLaw make_planar_printed(const HiddenEffect& effect, const World& world);
 

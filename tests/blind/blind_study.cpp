@@ -2,8 +2,9 @@
 // The blind study: arms with something hidden, diagnosed by who never sees the truth.
 //   blind_study [CASES] [SEED] [POSES] [--list]
 //   blind_study --narrow [CASES] [SEED] [POSES] [--list]
+//   blind_study --imitators [--kind NUMBER] [CASES] [SEED] [POSES] [--list]
 //   blind_study --inconvenient [--kind NUMBER] [CASES] [SEED] [POSES] [--list]
-// With POSES: the first CASES cases that have so many. --kind: arms of one kind alone, numbered
+// With POSES: the first CASES cases that have so many. --kind: cases of one kind alone, numbered
 // from 0 as in its table. --case NUMBER: that case of --list alone.
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/blind/imitator_case.hpp"
+#include "tests/blind/imitator_marks.hpp"
 #include "tests/blind/inconvenient_case.hpp"
 #include "tests/blind/inconvenient_marks.hpp"
 #include "tests/blind/marks.hpp"
@@ -24,6 +27,7 @@ int main(int argc, char** argv) {
   const bool list = asked_for("--list");
   const bool inconvenient = asked_for("--inconvenient");
   const bool narrow = asked_for("--narrow");
+  const bool imitators = asked_for("--imitators");
   const auto number_after = [&words](const char* option) {
     const auto at = std::find(words.begin(), words.end(), option);
     if (at == words.end() || at + 1 == words.end()) return -1;
@@ -31,14 +35,16 @@ int main(int argc, char** argv) {
     words.erase(at, at + 2);
     return number;
   };
-  const int kind = number_after("--kind");  // -1: inconvenient arms of every kind
+  const int kind = number_after("--kind");  // -1: every kind
   const int only = number_after("--case");  // -1: all
   const int cases = !words.empty() ? std::atoi(words[0].c_str()) : 2000;
   const auto seed = static_cast<std::uint64_t>(words.size() > 1 ? std::atoll(words[1].c_str()) : 1);
   const int poses = words.size() > 2 ? std::atoi(words[2].c_str()) : 0;
   const auto draw = [=](int number) {
-    if (kind >= 0)
-      number = number * static_cast<int>(plumb::tests::inconvenient_kinds().size()) + kind;
+    const auto& kinds =
+        imitators ? plumb::tests::imitator_kinds() : plumb::tests::inconvenient_kinds();
+    if (kind >= 0) number = number * static_cast<int>(kinds.size()) + kind;
+    if (imitators) return plumb::tests::draw_imitator_case(seed, number);
     if (narrow) return plumb::tests::draw_narrow_case(seed, number);
     return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
                         : plumb::tests::draw_case(seed, number);
@@ -54,11 +60,13 @@ int main(int argc, char** argv) {
       });
   for (std::size_t i = 0; list && i < scores.size(); ++i)
     std::printf("%s\n", plumb::tests::line_of(numbers[i], scores[i]).c_str());
-  const auto marks = narrow         ? plumb::tests::narrow_marks_of(scores, 2.0)
+  const auto marks = imitators      ? plumb::tests::imitator_marks_of(scores, 2.0)
+                     : narrow       ? plumb::tests::narrow_marks_of(scores, 2.0)
                      : inconvenient ? plumb::tests::inconvenient_marks_of(scores, 2.0)
                                     : plumb::tests::marks_of(scores, 2.0);
   std::printf("%s", plumb::tests::table_of(marks).c_str());
   if (narrow) std::printf("\n%s", plumb::tests::narrow_table_of(scores).c_str());
+  if (imitators) std::printf("\n%s", plumb::tests::imitator_table_of(scores).c_str());
   if (inconvenient) std::printf("\n%s", plumb::tests::inconvenient_tables_of(scores).c_str());
   return std::all_of(marks.begin(), marks.end(), [](const auto& m) { return m.passed; }) ? 0 : 1;
 }

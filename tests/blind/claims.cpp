@@ -57,6 +57,8 @@ bool acts_on_new_poses(const HiddenCase& drawn) {
 Claims claims_of(const HiddenCase& drawn, const Diagnosis& d) {
   Claims out;
   const auto others = alternatives_of(d);
+  out.slow_motion = d.slow_motion.has_value();
+  out.turned_gravity = d.gravity && d.gravity->certain;
   out.either = !others.empty() || d.slow_motion;
   out.alarm = d.finding == Finding::kMissing || d.finding == Finding::kUnknown || out.either ||
               !d.added.empty() || d.unknown_after.has_value();

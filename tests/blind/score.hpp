@@ -18,8 +18,10 @@ struct Claims {
   bool first_right = false;  // its first candidate is of a class that is hidden
   bool either = false;       // it said "A or B"
   bool either_right = false;
-  int unrelated = 0;         // added, but neither it nor what it may be instead is hidden
-  bool fall_counts = false;  // new poses can tell by how much the error falls with the first
+  bool slow_motion = false;     // it said that a step may be a slow motion
+  bool turned_gravity = false;  // it said for certain that gravity acts in another direction
+  int unrelated = 0;            // added, but neither it nor what it may be instead is hidden
+  bool fall_counts = false;     // new poses can tell by how much the error falls with the first
   double fall = 0.0, fall_se = 0.0;  // claimed, as shares of the error
   double true_fall = 0.0;            // of inconvenient arms
 };

@@ -11,13 +11,11 @@ constexpr double kWarm_K = 10.0;
 constexpr double kUsualGrowth_m = 0.25e-3;
 constexpr double kTiltShare = 0.15;
 
-}  // namespace
-
 // Every link expands with the temperature of its zone, and the column tilts in proportion to its
 // temperature above the air:
 //   link_i <- link_i (1 + alpha_i T_i),  base turn = tilt (T_0 - T_air)
 // The size is the expansion of the stretched arm when all of it is 10 K warmer.
-MadeLaw make_thermal_growth(const HiddenEffect& effect, const World& world) {
+ArmBending growing_links(const HiddenEffect& effect, const World& world) {
   const double reach = world.arm.reach();
   const double size = effect.size.value_or(kUsualGrowth_m);
   Random random(world.seed, "thermal growth");
@@ -43,7 +41,21 @@ MadeLaw make_thermal_growth(const HiddenEffect& effect, const World& world) {
   out.truth = {{"alpha_per_K", alpha},
                {"tilt_urad_per_K", {tilt.x() * 1e6, tilt.y() * 1e6}},
                {"growth_um_at_10_K", size * 1e6}};
+  return out;
+}
+
+}  // namespace
+
+MadeLaw make_thermal_growth(const HiddenEffect& effect, const World& world) {
+  ArmBending out = growing_links(effect, world);
   out.inputs = {"temp"};
+  return arm_law(std::move(out));
+}
+
+// The same, for a record without any temperature: only the time says how warm the arm is.
+MadeLaw make_unsensed_growth(const HiddenEffect& effect, const World& world) {
+  ArmBending out = growing_links(effect, world);
+  out.inputs = {"t", "order"};
   return arm_law(std::move(out));
 }
 
