@@ -15,6 +15,7 @@
 #include "diagnose/effect_sentence.hpp"
 #include "diagnose/effect_words.hpp"
 #include "diagnose/few_digits.hpp"
+#include "diagnose/left_beside.hpp"
 #include "diagnose/other_gravity.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
@@ -166,6 +167,28 @@ const Addition* moved_otherwise(const Cell& cell, const Diagnosis& d) {
   return nullptr;
 }
 
+/// Why effects that were added may be parts of something else.
+std::string part_words(PartOf part, bool several) {
+  const char* const so = several ? "they may be parts" : "it may be a part";
+  return part == PartOf::kLargerRest
+             ? fmt::format("more is left than {} explains, so that {} of another cause",
+                           several ? "each of them" : "it", so)
+             : fmt::format("unknown structure is left at the same joint, so that {} of that", so);
+}
+
+/// The effects that were added and may be parts of something else, by the reason.
+std::string parts_words(const Cell& cell, const Diagnosis& d) {
+  std::string out;
+  for (const PartOf part : {PartOf::kLargerRest, PartOf::kRestOfItsJoint}) {
+    std::vector<std::string> names;
+    for (const auto& added : d.added)
+      if (part_of(d, added) == part) names.push_back(in_words(cell, added.entry, added.cycles));
+    if (!names.empty())
+      out += fmt::format("; {}: {}", fmt::join(names, ", "), part_words(part, names.size() > 1));
+  }
+  return out;
+}
+
 std::string sure_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
   if (const Addition* added = moved_otherwise(cell, d))
@@ -178,6 +201,8 @@ std::string sure_words(const Cell& cell, const Diagnosis& d) {
         "It explains {:.0f} % of the error only: most of it has another cause, and "
         "what that leaves may be mistaken for this.",
         100.0 * (1.0 - best.alone.mean / d.before.mean));
+  if (const PartOf part = part_of_first(d); part != PartOf::kNothing)
+    return fmt::format("Doubtful, though these poses speak for it: {}.", part_words(part, false));
   const Candidate* const rival = near_rival(cell, d);
   const double ahead = nats_ahead(cell, d);
   std::string out = ahead >= kCertain_nats      ? "Certain"
@@ -210,9 +235,9 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
         mm(d.refused->rms), floor_words(d.floor));
   const bool undecidable = d.finding == Finding::kUndecidable;
   return fmt::format("{}: {}. Adding {}: {}, {}. {}",
-                     undecidable          ? "Undecidable"
-                     : explains_little(d) ? "Perhaps"
-                                          : "Missing",
+                     undecidable                                                  ? "Undecidable"
+                     : explains_little(d) || part_of_first(d) != PartOf::kNothing ? "Perhaps"
+                                                                                  : "Missing",
                      effect, may_be_another(d) ? "the first" : "it",
                      fall_words(d.before.mean, best.alone.mean), floor_words(d.floor),
                      sure_words(cell, d));
@@ -227,7 +252,7 @@ std::string unsure_words(const Cell& cell, const Diagnosis& d) {
                        either_words(cell, effect_sentence(cell, added), added.alternatives));
     if (!names_what_is_not_shown(added.alternatives)) out += ", and predict as well with either";
   }
-  return out;
+  return out + parts_words(cell, d);
 }
 
 /// Why an effect was not added, though it is supported: "joint compliance (joint_compliance:J2) is

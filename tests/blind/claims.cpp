@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "diagnose/left_beside.hpp"
 #include "simulate/law.hpp"
 #include "tests/blind/answer.hpp"
 
@@ -62,7 +63,13 @@ Claims claims_of(const HiddenCase& drawn, const Diagnosis& d) {
   out.either = !others.empty() || d.slow_motion;
   out.alarm = d.finding == Finding::kMissing || d.finding == Finding::kUnknown || out.either ||
               !d.added.empty() || d.unknown_after.has_value();
-  for (const auto& added : d.added) out.unrelated += !is_related(drawn, added);
+  out.first_doubtful = offline::part_of_first(d) != offline::PartOf::kNothing;
+  for (const auto& added : d.added) {
+    const bool certain = offline::part_of(d, added) == offline::PartOf::kNothing;
+    out.unrelated += !is_related(drawn, added);
+    out.unrelated_certain += certain && !is_related(drawn, added);
+    out.doubtful_right += !certain && is_hidden(drawn, added.entry);
+  }
   if (d.candidates.empty()) return out;
   const auto& first = d.candidates.front();
   out.lead =

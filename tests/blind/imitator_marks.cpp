@@ -16,10 +16,11 @@ bool is_named_wrongly(const Score& s) { return outcome_of(s) == Outcome::kWrong;
 
 Outcome outcome_of(const Score& s) {
   const Claims& claims = *s.claims;
-  if (claims.unrelated > 0 || claims.turned_gravity) return Outcome::kWrong;
+  if (claims.unrelated_certain > 0 || claims.turned_gravity) return Outcome::kWrong;
   if (claims.first_right || claims.either_right || (s.unknown_said && s.inputs_right))
     return Outcome::kRight;
-  const bool one = s.finding == offline::Finding::kMissing && !claims.either;
+  const bool one =
+      s.finding == offline::Finding::kMissing && !claims.either && !claims.first_doubtful;
   const bool only_others = claims.either && !claims.slow_motion;
   return one || only_others ? Outcome::kWrong : Outcome::kVague;
 }
@@ -59,7 +60,7 @@ std::string imitator_table_of(const std::vector<Score>& scores) {
     };
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.2f}, {:.2f} |\n", kind, made.size(),
                        came_to(Outcome::kRight), came_to(Outcome::kVague), came_to(Outcome::kWrong),
-                       count([](const Score& s) { return s.claims->unrelated > 0; }),
+                       count([](const Score& s) { return s.claims->unrelated_certain > 0; }),
                        count(is_worse), median(&Score::before), median(&Score::after));
   }
   return out;

@@ -88,9 +88,15 @@ TEST(ImitatorOutcome, AnotherGravityForCertainIsWrong) {
             Outcome::kWrong);
 }
 
+TEST(ImitatorOutcome, WhatIsSaidToBeAPartOfAnotherCauseIsNotNamedForCertain) {
+  EXPECT_EQ(outcome_of(imitator_score(Finding::kMissing, {.first_doubtful = true, .unrelated = 1})),
+            Outcome::kVague);
+}
+
 TEST(ImitatorOutcome, AnAdditionOfAnotherCauseIsWrongWhateverElseIsSaid) {
-  EXPECT_EQ(outcome_of(imitator_score(Finding::kMissing, {.first_right = true, .unrelated = 1})),
-            Outcome::kWrong);
+  EXPECT_EQ(
+      outcome_of(imitator_score(Finding::kMissing, {.first_right = true, .unrelated_certain = 1})),
+      Outcome::kWrong);
 }
 
 /// A diagnoser that always names the same for certain must miss every mark.

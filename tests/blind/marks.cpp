@@ -116,9 +116,11 @@ std::string claims_text(const Score& s) {
   if (!s.claims) return "";
   const Claims& c = *s.claims;
   return fmt::format(
-      " lead {:.1f} {}{}{} unrelated {} fall {:.2f}+-{:.2f} true {:.2f} held/true {:.2f}", c.lead,
-      c.first_right ? "right" : "wrong", c.alarm ? "" : " silent",
-      c.either ? (c.either_right ? " either-right" : " either-wrong") : "", c.unrelated, c.fall,
+      " lead {:.1f} {}{}{}{} unrelated {}{} fall {:.2f}+-{:.2f} true {:.2f} held/true {:.2f}",
+      c.lead, c.first_right ? "right" : "wrong", c.alarm ? "" : " silent",
+      c.either ? (c.either_right ? " either-right" : " either-wrong") : "",
+      c.first_doubtful ? " doubtful" : "", c.unrelated,
+      c.doubtful_right > 0 ? fmt::format(" right-but-doubtful {}", c.doubtful_right) : "", c.fall,
       c.fall_se, c.fall_counts ? c.true_fall : 0.0, s.held_over_true);
 }
 

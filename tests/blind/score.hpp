@@ -20,6 +20,9 @@ struct Claims {
   bool either_right = false;
   bool slow_motion = false;     // it said that a step may be a slow motion
   bool turned_gravity = false;  // it said for certain that gravity acts in another direction
+  bool first_doubtful = false;  // it said that its first candidate may be a part of another cause
+  int unrelated_certain = 0;    // of the unrelated ones, those of which it did not say so
+  int doubtful_right = 0;       // added and hidden, and it said so
   int unrelated = 0;            // added, but neither it nor what it may be instead is hidden
   bool fall_counts = false;     // new poses can tell by how much the error falls with the first
   double fall = 0.0, fall_se = 0.0;  // claimed, as shares of the error
