@@ -92,7 +92,8 @@ void add_errors(MarkList& m) {
     m.at_least(
         fmt::format("reported held-out error within {:.0f} % of the truth, N = {}", 100.0 * within,
                     poses),
-        0.95, [poses](const Score& s) { return s.drawn.request.poses == poses && is_steady(s); },
+        0.95,
+        [poses = poses](const Score& s) { return s.drawn.request.poses == poses && is_steady(s); },
         [within](const Score& s) { return std::abs(s.held_over_true - 1.0) <= within; });
   m.at_least(
       "what was added lowered the true error", 0.97,
