@@ -119,8 +119,8 @@ class CutSearch {
     const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
     const auto X = motions_.middleRows(at, s_.axes);
     behind_.add(X, y_.segment(at, s_.axes));
-    behind_.UX.topRows(s_.rank) += model_.middleCols(at, s_.axes).lazyProduct(X);
-    behind_.UX.bottomRows(others_.rows()) += others_.middleCols(at, s_.axes).lazyProduct(X);
+    behind_.add_model(0, model_.middleCols(at, s_.axes), X);
+    behind_.add_model(s_.rank, others_.middleCols(at, s_.axes), X);
   }
   RunningSums::Square gram() const { return behind_.XX - behind_.UX.transpose() * behind_.UX; }
 
@@ -144,8 +144,8 @@ class CutSearch {
   std::vector<Eigen::Index> order_;
   EvidenceScale scale_;
   RunningSums behind_;
-  /// Columns of the model and of the other moves, orthonormal. Each is stored as a row, because
-  /// the lines of a pose are read together: (rank, fit lines), (c, fit lines).
+  /// Columns of the model and of the other moves, orthonormal and stored as rows: shapes
+  /// (rank, fit lines) and (columns, fit lines).
   Eigen::MatrixXd model_, others_;
   Eigen::VectorXd y_;
   double Q_;

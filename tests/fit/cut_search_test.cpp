@@ -15,12 +15,14 @@ namespace {
 constexpr int kVisits = 40;
 
 struct Line {
-  Eigen::MatrixXd X;
+  Eigen::MatrixXd X, U;
   Eigen::VectorXd y;
 
-  explicit Line(tests::Random& random) : X(3 * kVisits, 3), y(3 * kVisits) {
-    for (double& x : X.reshaped()) x = random.uniform(-1.0, 1.0);
-    for (double& x : y) x = random.uniform(-1.0, 1.0);
+  explicit Line(tests::Random& random) : X(3 * kVisits, 3), U(3 * kVisits, 5), y(3 * kVisits) {
+    for (double* at : {X.data(), U.data(), y.data()}) {
+      const auto size = at == X.data() ? X.size() : at == U.data() ? U.size() : y.size();
+      for (Eigen::Index i = 0; i < size; ++i) at[i] = random.uniform(-1.0, 1.0);
+    }
   }
 };
 
@@ -55,14 +57,20 @@ TEST(CutSearch, FindsTheCutThatADenseFitOfEveryCutFindsBest) {
   }
 }
 
-TEST(CutSearch, TheSumsAreThoseOfAllLinesTogether) {
+TEST(CutSearch, TheSumsBesideAModelAreThoseOfAllLinesTogether) {
   tests::Random random(3);
   const Line line(random);
-  RunningSums sums(3);
-  for (int visit = 0; visit < kVisits; ++visit)
-    sums.add(line.X.middleRows(3 * visit, 3), line.y.segment(3 * visit, 3));
+  RunningSums sums(3, 5);
+  const Eigen::MatrixXd Ut = line.U.transpose();
+  for (int visit = 0; visit < kVisits; ++visit) {
+    const auto X = line.X.middleRows(3 * visit, 3);
+    sums.add(X, line.y.segment(3 * visit, 3));
+    sums.add_model(0, Ut.topRows(2).middleCols(3 * visit, 3), X);
+    sums.add_model(2, Ut.bottomRows(3).middleCols(3 * visit, 3), X);
+  }
   EXPECT_LT((sums.XX - line.X.transpose() * line.X).norm(), 1e-12);
   EXPECT_LT((sums.Xy - line.X.transpose() * line.y).norm(), 1e-12);
+  EXPECT_LT((sums.UX - line.U.transpose() * line.X).norm(), 1e-12);
 }
 
 TEST(CutSearch, TriesNoCutThatIsNotAllowedAndSaysSoIfNoneIs) {
