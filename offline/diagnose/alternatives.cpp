@@ -30,14 +30,57 @@ bool lists(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The candidates that are another finding than `first` and hardly weaker in evidence.
-std::vector<const Found*> near(const std::vector<Found>& all, const Found& first) {
-  std::vector<const Found*> out;
-  for (const auto& other : all)
-    if (&other != &first && other.ln_bayes() > 0.0 &&
-        first.ln_bayes() - other.ln_bayes() < kTold_nats && !one_finding(other.entry, first.entry))
-      out.push_back(&other);
-  return out;
+bool driven_by_load(const Found& found) { return grows_with_load(descriptor_of(found.entry.name)); }
+
+/// Share of its motion that the calibrated numbers of the arm cannot imitate at these poses.
+double shown(const Found& found) { return std::max(0.0, 1.0 - found.scored.absorbed); }
+
+/// How far another cause may be behind `first` in evidence and still be the true one [nats].
+/// Along a path the arm's numbers may imitate nearly all that a load does by its law, but not the
+/// small part by which every law differs from nature. That part is kLawLeaves of the whole motion,
+/// and the poses show as much of it as of `most_shown`, the best shown cause of this kind.
+double told_nats(const WhitenedFit& whitened, const Found& first, const Found& other,
+                 double most_shown) {
+  if (!driven_by_load(first) || !driven_by_load(other) || !(shown(other) > 0.0)) return kTold_nats;
+  const double seen_nats = 0.5 * other.scored.explained * whitened.Q;
+  const double times = std::max(0.0, most_shown / shown(other) - 1.0);
+  return kTold_nats + kLawLeaves * kLawLeaves * times * seen_nats;
+}
+
+/// The candidates that are another finding than `first` and not too far behind it in evidence.
+std::vector<const Found*> near(const WhitenedFit& whitened, const std::vector<Found>& all,
+                               const Found& first) {
+  std::vector<const Found*> others;
+  double most_shown = shown(first);
+  for (const auto& other : all) {
+    if (&other == &first || !(other.ln_bayes() > 0.0) || one_finding(other.entry, first.entry))
+      continue;
+    others.push_back(&other);
+    if (driven_by_load(other)) most_shown = std::max(most_shown, shown(other));
+  }
+  std::erase_if(others, [&](const Found* other) {
+    return first.ln_bayes() - other->ln_bayes() >= told_nats(whitened, first, *other, most_shown);
+  });
+  return others;
+}
+
+/// Those of `near` that imitate `first` as it imitates them, and so cannot be told from it.
+std::vector<const Found*> cannot_be_told(const WhitenedFit& whitened, const std::vector<Found>& all,
+                                         const Found& first) {
+  std::vector<const Found*> others = near(whitened, all, first);
+  const std::vector<double> alike = mutual_reproduction(whitened, first, others);
+  double most_shown = shown(first);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (alike[i] < kConfounded)
+      others[i] = nullptr;
+    else if (driven_by_load(*others[i]))
+      most_shown = std::max(most_shown, shown(*others[i]));
+  }
+  std::erase_if(others, [&](const Found* other) {
+    return other == nullptr ||
+           first.ln_bayes() - other->ln_bayes() >= told_nats(whitened, first, *other, most_shown);
+  });
+  return others;
 }
 
 /// Laws of the library that change with time or a temperature.
@@ -100,15 +143,13 @@ std::vector<Alternative> alternatives_under_unknown_weights(const WhitenedFit& w
 std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
                                       const Found& first, const std::vector<Testable>& excluded) {
   std::vector<Alternative> out;
-  const std::vector<const Found*> searched = near(look.library, first);
-  const std::vector<double> alike = mutual_reproduction(whitened, first, searched);
-  for (std::size_t i = 0; i < searched.size(); ++i)
-    if (alike[i] >= kConfounded) out.push_back(alternative(first, *searched[i]));
+  for (const Found* other : cannot_be_told(whitened, look.library, first))
+    out.push_back(alternative(first, *other));
   for (Alternative& other : alternatives_under_unknown_weights(whitened, first))
     out.push_back(std::move(other));
   if (excluded.empty()) return out;
   const std::vector<Found> laws = excluded_laws(whitened, names_of(excluded));
-  const std::vector<const Found*> hidden = near(laws, first);
+  const std::vector<const Found*> hidden = near(whitened, laws, first);
   const std::vector<double> hidden_alike = mutual_reproduction(whitened, first, hidden);
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     if (hidden_alike[i] < kConfounded && hidden[i]->score < first.score) continue;

@@ -12,7 +12,8 @@
 namespace plumb::offline {
 
 /// What `first` may be instead, by evidence: other laws, or the same law at other joints, that come
-/// within 10 nats of it or ahead of it, and that can imitate it as it can imitate them (80 % of the
+/// within 10 nats of it or ahead of it (causes by load: also farther behind, where the arm's numbers
+/// imitate nearly all of their motion), and that can imitate it as it can imitate them (80 % of the
 /// motion, either way). Finer laws of the same cause are no alternatives: a joint that yields is
 /// one finding, whatever law describes it best.
 ///

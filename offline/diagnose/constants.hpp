@@ -19,6 +19,7 @@
 ///   formulas set beforehand and kept after seeds 1 and 5 of docs/formula-study.md, 2026-11-28
 ///   data     the least from which the number can be estimated at all
 ///   cost     bounds the time of a diagnosis
+///   chosen   stated with its reason, and not changed after seeing what it does
 ///
 /// What only keeps the arithmetic sound (ridges, ranks, tiny denominators) stands where it is used;
 /// what one effect needs (group_share, tightened after seed 2027) stands with the effect.
@@ -39,6 +40,9 @@ inline constexpr double kVeryLikely_nats = 5.0;
 /// Confounded candidates this near to each other cannot be told apart: laws are accurate to some
 /// percent only, and a lead of 3 to 5 nats was right in 58 %, of 5 to 10 nats in 70 %. outside.
 inline constexpr double kTold_nats = 10.0;
+/// Share of the motion of a real cause that its law does not describe. Laws are accurate to some
+/// percent; a tenth is the most that is believed of a law that fits. chosen.
+inline constexpr double kLawLeaves = 0.1;
 /// Candidates this near to each other have the same evidence: 1.6 to 1. odds.
 inline constexpr double kSameEvidence = 0.5;
 /// Least evidence of a further wave of a joint, less the cost of its search: as kSupported. odds.
