@@ -128,7 +128,8 @@ constexpr Explanation kTerms[] = {
     {"these poses cannot tell",
      "Of a diagnosis: two or more effects explain the readings nearly as well (a lead of less "
      "than 10 nats names the wrong one in every third case; along a path, where the arm's own "
-     "numbers imitate nearly all that a load does, a larger one may, for no law is exact), and each "
+     "numbers imitate nearly all that a load does, a larger one may, for no law is exact), and "
+     "each "
      "can imitate the other. The "
      "error falls as far with either. plumb diagnose --apply adds the first, but none of them "
      "where one would be compiled and another thrown away; what else is supported beside them it "

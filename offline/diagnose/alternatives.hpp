@@ -12,10 +12,10 @@
 namespace plumb::offline {
 
 /// What `first` may be instead, by evidence: other laws, or the same law at other joints, that come
-/// within 10 nats of it or ahead of it (causes by load: also farther behind, where the arm's numbers
-/// imitate nearly all of their motion), and that can imitate it as it can imitate them (80 % of the
-/// motion, either way). Finer laws of the same cause are no alternatives: a joint that yields is
-/// one finding, whatever law describes it best.
+/// within 10 nats of it or ahead of it (causes by load: also farther behind, where the arm's
+/// numbers imitate nearly all of their motion), and that can imitate it as it can imitate them (80
+/// % of the motion, either way). Finer laws of the same cause are no alternatives: a joint that
+/// yields is one finding, whatever law describes it best.
 ///
 /// @param excluded  Laws that the data cannot show, and that the scan has therefore left out. One
 ///                  of them is also an alternative if it explains these poses better than `first`.
