@@ -547,8 +547,9 @@ constexpr Explanation kCodes[] = {
      "Some combinations of the arm's numbers hardly move the measured points in these poses: the "
      "poses lie along a path or on a surface, or the wrist turns little. Arms are built to some "
      "tenths of a millimetre and milliradian, so these combinations are held near their nominal "
-     "values by [fit] prior_mm and prior_mrad (1 sigma, 0.5 each unless stated, 0 to switch it "
-     "off). What the poses show clearly is not touched. Where such poses are, the model is as good "
+     "values by [fit] prior_mm and prior_mrad (1 sigma; unless stated, 0.5 each, or up to 16 "
+     "times as much where what the poses clearly tell of this arm says so; 0 to switch it off). "
+     "What the poses show clearly is not touched. Where such poses are, the model is as good "
      "as its held-out error says; elsewhere it is a guess that stays near nominal."},
     {"N-FIT-MARKED",
      "[measurement] held_out is \"auto\" or not stated, and the files mark rows as held in column "

@@ -13,8 +13,10 @@ constexpr Explanation kTerms[] = {
      "sheet (nominal)."},
     {"prior",
      "What is assumed before anything is measured: that arms are built within 0.5 mm and 0.5 "
-     "mrad of nominal ([fit] prior_mm, prior_mrad). It decides only where the poses say next "
-     "to nothing. Or what other arms, or an earlier run of this one, taught: [fit] prior_from, "
+     "mrad of nominal ([fit] prior_mm, prior_mrad), or up to 16 times farther where what the "
+     "poses clearly tell of this arm says so and the cell states nothing else. It decides only "
+     "where the poses say next to nothing. Or what other arms, or an earlier run of this one, "
+     "taught: [fit] prior_from, "
      "fit --from."},
     {"fleet",
      "Several arms that are looked at together: plumb fleet fits every cell of a folder and says "

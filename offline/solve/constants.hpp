@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 /// Every number that a solution of a fit is judged by, and where each comes from:
@@ -68,6 +69,14 @@ inline constexpr double kPlausible_m = 5e-3, kPlausible_rad = 5e-3;
 /// A direction is weak if the poses tell it worse than a third of the prior of the cell. Its number
 /// is a singular value in units of that prior. chosen.
 inline constexpr double kWeakBelow = 3.0;
+/// How many times farther from nominal an arm may be built than the usual prior of 0.5 mm and
+/// 0.5 mrad says; up to 8 mm and 8 mrad. arms.
+inline constexpr std::array kBuiltTimes = {1.0, 2.0, 4.0, 8.0, 16.0};
+/// Evidence for another width than the usual one [nats]: 20 to 1. odds.
+inline constexpr double kBuiltAhead_nats = 3.0;
+/// Degrees of freedom of the Student density of such differences: now and then one number is far
+/// off, as the zero of a joint after a repair. chosen.
+inline constexpr double kBuiltDof = 3.0;
 /// A number is named as held near nominal if this share of its square lies in weak directions.
 /// chosen.
 inline constexpr double kNamedShare = 0.25;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/arm_change.hpp"
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
 #include "solve/constants.hpp"
@@ -58,6 +59,63 @@ Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
                                            static_cast<Eigen::Index>(numbers.size()));
 }
 
+std::vector<bool> are_lengths(const std::vector<Parameter>& parameters) {
+  std::vector<bool> out;
+  for (const auto& p : parameters) out.push_back(p.is_length());
+  return out;
+}
+
+/// Differences of the arm's numbers from nominal, in units of the prior.
+Eigen::VectorXd differences(const FitData& data, const ArmState& state, const HeldNumbers& held) {
+  ArmState nominal;
+  nominal.arm.calibrated = data.cell->nominal;
+  Eigen::VectorXd out(static_cast<Eigen::Index>(held.sigma.size()));
+  for (std::size_t i = 0; i < held.sigma.size(); ++i)
+    out(static_cast<Eigen::Index>(i)) =
+        (value_of(state, held.parameters[i]) - value_of(nominal, held.parameters[i])) /
+        held.sigma[i];
+  return out;
+}
+
+/// The directions that the poses tell, in units of the prior: differences along them, with 1 sigma
+/// of the readings, and the share of each number in them, shape (directions, numbers).
+struct Told {
+  Eigen::VectorXd differences, sigma;
+  Eigen::MatrixXd share;
+  std::vector<bool> is_length;
+};
+
+/// ln of the density of what is told if arms were built so many times farther from nominal than the
+/// prior says. Each direction has a Student density, so that one number that is far off says little
+/// of all others.
+double ln_density(const Told& told, const BuiltTimes& times) {
+  Eigen::VectorXd variance(told.share.cols());
+  for (Eigen::Index i = 0; i < variance.size(); ++i) {
+    const double t = told.is_length[static_cast<std::size_t>(i)] ? times.lengths : times.angles;
+    variance(i) = t * t;
+  }
+  const Eigen::ArrayXd all = (told.share * variance).array() + told.sigma.array().square();
+  const Eigen::ArrayXd squares = told.differences.array().square() / all;
+  return -0.5 * (all.log() + (kBuiltDof + 1.0) * (1.0 + squares / kBuiltDof).log()).sum();
+}
+
+/// How many times farther from nominal than the prior says this arm is built, by what the poses
+/// clearly tell of it. Not where the cell states another prior than the usual one.
+BuiltTimes built_times(const Told& told, const FitSettings& settings) {
+  const FitSettings usual;
+  if (settings.prior_m != usual.prior_m || settings.prior_rad != usual.prior_rad) return {};
+  const double as_stated = ln_density(told, {});
+  BuiltTimes out;
+  double best = as_stated + kBuiltAhead_nats;
+  for (const double lengths : kBuiltTimes)
+    for (const double angles : kBuiltTimes)
+      if (const double here = ln_density(told, {lengths, angles}); here > best) {
+        best = here;
+        out = {lengths, angles};
+      }
+  return out;
+}
+
 }  // namespace
 
 WeakDirections weak_directions(const FitData& data, const ArmState& state,
@@ -67,30 +125,48 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   if (held.parameters.empty()) return out;
   std::vector<Parameter> order = std::move(held.others);
   const auto first = static_cast<Eigen::Index>(order.size());
-  out.parameters = std::move(held.parameters);
-  order.insert(order.end(), out.parameters.begin(), out.parameters.end());
+  order.insert(order.end(), held.parameters.begin(), held.parameters.end());
   FitData thin = data;
   thin.weak = {};
   thin.rows = thinned(data, kRankRows);
-  const Eigen::VectorXd sigma = as_vector(held.sigma);
-  const Eigen::MatrixXd shown =
-      less_the_first(jacobian_for_all(data, thin, state, order), first) * sigma.asDiagonal();
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
-  square.topRows(std::min(shown.rows(), square.rows())) =
-      shown.topRows(std::min(shown.rows(), square.rows()));
-  const auto [s, every] = right_singular(square);
-  const auto strong = static_cast<Eigen::Index>((s.array() >= kWeakBelow).count());
-  const Eigen::MatrixXd V = every.rightCols(sigma.size() - strong);
+  Eigen::VectorXd sigma = as_vector(held.sigma);
+  const Eigen::MatrixXd shown = less_the_first(jacobian_for_all(data, thin, state, order), first);
+  const auto along = [&] {
+    Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
+    const Eigen::Index rows = std::min(shown.rows(), square.rows());
+    square.topRows(rows) = shown.topRows(rows) * sigma.asDiagonal();
+    return right_singular(square);
+  };
+  const auto strong_of = [](const Eigen::VectorXd& s) {
+    return static_cast<Eigen::Index>((s.array() >= kWeakBelow).count());
+  };
+  RightSingular all = along();
+  Eigen::Index strong = strong_of(all.values);
+  const Eigen::MatrixXd told = all.vectors.leftCols(strong).transpose();
+  out.built =
+      built_times({told * differences(data, state, held), all.values.head(strong).cwiseInverse(),
+                   told.cwiseAbs2(), are_lengths(held.parameters)},
+                  data.cell->fit);
+  if (out.built.lengths > 1.0 || out.built.angles > 1.0) {
+    for (Eigen::Index i = 0; i < sigma.size(); ++i)
+      sigma(i) *= held.parameters[static_cast<std::size_t>(i)].is_length() ? out.built.lengths
+                                                                           : out.built.angles;
+    all = along();
+    strong = strong_of(all.values);
+  }
+  const Eigen::MatrixXd V = all.vectors.rightCols(sigma.size() - strong);
   out.weights = V.transpose() * sigma.cwiseInverse().asDiagonal();
   out.share = V.rowwise().squaredNorm();
+  out.parameters = std::move(held.parameters);
   return out;
 }
 
 WeakDirections all_directions(const FitData& data, const ArmState& state,
                               const std::vector<Parameter>& parameters) {
   WeakDirections out = weak_directions(data, state, parameters);
-  if (!out.parameters.empty())
-    out.weights = as_vector(held_numbers(data, parameters).sigma).cwiseInverse().asDiagonal();
+  if (out.parameters.empty()) return out;
+  out.weights = as_vector(held_numbers(data, parameters).sigma).cwiseInverse().asDiagonal();
+  out.built = {};
   return out;
 }
 

@@ -32,10 +32,11 @@ Problem held_near_nominal(const WeakDirections& weak, const FitSettings& setting
   }
   return {.severity = Severity::kNote,
           .code = "N-FIT-PRIOR",
-          .message = fmt::format("these poses say little of {}{}: they are held near nominal, give "
-                                 "or take {:g} mm and {:g} mrad",
-                                 fmt::join(names, ", "), more, settings.prior_m * 1e3,
-                                 settings.prior_rad * 1e3),
+          .message =
+              fmt::format("these poses say little of {}{}: they are held near nominal, give "
+                          "or take {:g} mm and {:g} mrad",
+                          fmt::join(names, ", "), more, settings.prior_m * weak.built.lengths * 1e3,
+                          settings.prior_rad * weak.built.angles * 1e3),
           .help = "to know them, measure poses all over the joint limits: plumb plan --n 30"};
 }
 

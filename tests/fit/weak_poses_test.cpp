@@ -214,6 +214,54 @@ TEST_P(PosesAlongAWay, AreFittedToTheNoiseEvenOfAnArmThatIsMillimetresOff) {
   EXPECT_LT(held_out_excess(fitted(cell, m), m), 1.5);
 }
 
+/// A prior that is not the usual one, by next to nothing: a cell that states its own keeps it.
+Cell with_a_prior_of_its_own(Cell cell) {
+  cell.fit.prior_m = cell.fit.prior_rad = 0.5001e-3;
+  return cell;
+}
+
+/// How much larger the error at poses all over is if the prior may be widened by what the poses
+/// tell, than if it stays: mean of the logarithm over some arms, and its standard error.
+struct Larger {
+  double mean = 0.0, error = 0.0;
+};
+
+/// Of arms that are wrong by `error` (1 sigma, [m] and [rad]).
+Larger with_a_prior_by_evidence(Way way, double error) {
+  constexpr std::uint64_t kFirst = 11, kLast = 22;
+  const Cell cell = six_axis_arm();
+  const Cell stays = with_a_prior_of_its_own(cell);
+  double sum = 0.0, squares = 0.0;
+  for (std::uint64_t seed = kFirst; seed <= kLast; ++seed) {
+    const Measurements m = measured_along(cell, way, seed, error);
+    const Measurements elsewhere = measured_at(cell, all_over(cell), seed, error);
+    const double here = std::log(held_out_excess(fitted(cell, m), elsewhere) /
+                                 held_out_excess(fitted(stays, m), elsewhere));
+    sum += here;
+    squares += here * here;
+  }
+  constexpr double kArms = kLast - kFirst + 1;
+  const double mean = sum / kArms;
+  return {mean, std::sqrt((squares / kArms - mean * mean) / (kArms - 1.0))};
+}
+
+// How far this arm is built from nominal is decided by what its poses clearly tell.
+TEST_P(PosesAlongAWay, OfAnArmThatIsMillimetresOffPredictOthersAsWell) {
+  constexpr double kLittle = 0.1;  // beside errors of millimetres there, and what others gain
+  EXPECT_LT(with_a_prior_by_evidence(GetParam(), 4e-3).mean, kLittle);
+}
+
+TEST_P(PosesAlongAWay, OfAnArmBuiltAsArmsAreKeepTheUsualPrior) {
+  EXPECT_NEAR(with_a_prior_by_evidence(GetParam(), 0.5e-3).mean, 0.0, 0.002);
+}
+
+TEST(PriorOfGeometry, IsWidenedWhereAnArmIsMillimetresOffAndPredictsOtherPosesBetter) {
+  for (const Way way : {Way::kHelix, Way::kWristAlmostStill}) {
+    const Larger larger = with_a_prior_by_evidence(way, 4e-3);
+    EXPECT_LT(larger.mean, -2.0 * larger.error);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, PosesAlongAWay,
                          ::testing::Values(Way::kHelix, Way::kLineWithLittleWrist,
                                            Way::kSweepOfTwoJoints, Way::kWristAlmostStill));
