@@ -20,6 +20,7 @@
 #include "diagnose/model_parts.hpp"
 #include "diagnose/other_gravity.hpp"
 #include "diagnose/refit.hpp"
+#include "diagnose/series_of_all.hpp"
 #include "diagnose/sharpen_steps.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
@@ -246,7 +247,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
     out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
-                         held_by_step.back().stats(w.bad), step.alternatives, step.moves});
+                         held_by_step.back().stats(w.bad), step.alternatives, step.moves,
+                         step.sizes});
   }
   std::optional<HeldOutPredictions> nested;
   if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
@@ -377,6 +379,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
     }
   }
   const WhitenedFit& whitened = at.whitened;
+  if (judgeable(whitened)) add_series_of_all(whitened, base, w.not_testable, at.look);
   const Scan& first = at.look;
   const Calibration present =
       w.all_choose() ? base : calibrate_from(w.cell, measured, w.fit, base.state);

@@ -88,6 +88,7 @@ struct Addition {
   ErrorStats held;
   std::vector<Alternative> alternatives;  // what it may be instead; all of its fate
   std::vector<Move> moves = {};           // of a part that moved several times
+  std::string sizes = {};                 // of a series of all joints: the error of each in words
 };
 
 /// Gravity in another direction than the cell states, under which the loads explain these poses

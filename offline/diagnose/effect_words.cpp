@@ -79,6 +79,9 @@ std::string in_words(const Cell& cell, const Candidate& candidate) {
 }
 
 std::string in_words(const Cell& cell, const Addition& added) {
+  if (!added.sizes.empty())
+    return fmt::format("gear errors of several joints, {} ({})", added.sizes,
+                       command_name(cell, added.entry));
   return in_words(cell, added.entry, added.cycles, added.moves);
 }
 

@@ -17,6 +17,7 @@
 #include "diagnose/fresh_waves.hpp"
 #include "diagnose/imitating_step.hpp"
 #include "diagnose/left_out_ends.hpp"
+#include "diagnose/series_of_all.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "effects/effect_option.hpp"
 
@@ -77,7 +78,8 @@ void select(Selection& s, ForwardSelection& out) {
     out.undecided.reset();
     if (best != nullptr && may_be_added(s, *best, out))
       add_effect(s, as_many_as_fit(s, with_fresh_waves(s, *best)));
-    else if (!revise_once(s, {&kExchange, &kDoubt, &kExchangeForSize, &kLeftOutEnds}))
+    else if (!revise_once(s, {&kExchange, &kDoubt, &kExchangeForSize, &kLeftOutEnds}) &&
+             (best != nullptr || !revise_once(s, {&kSeriesOfAll})))
       return;
   }
 }
@@ -128,6 +130,7 @@ std::vector<ForwardStep> steps(Selection& s) {
                    found.cycles,
                    found.peaks,
                    found.moves,
+                   found.sizes,
                    found.ln_bayes(),
                    s.alternatives_of(s.key(found.entry)),
                    last ? s.cell().effects : effects,

@@ -17,6 +17,7 @@ struct ForwardStep {
   std::vector<double> cycles;  // of a ripple: all its waves
   std::string peaks;           // of a series of waves: its largest ones in words
   std::vector<Move> moves;     // of a part that moved several times
+  std::string sizes;           // of a series of all joints: the error of each in words
   double ln_bayes = 0.0;
   std::vector<Alternative> alternatives;  // what it may be instead
   std::vector<EffectEntry> effects;       // the whole list

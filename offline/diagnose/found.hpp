@@ -20,6 +20,7 @@ struct Found {
   std::vector<double> cycles;    // of ripple: all its waves, strongest first
   double rms_joint = 0.0;        // of a pattern at a joint: its fitted size [rad]
   std::string peaks = {};        // of a series: its largest waves in words
+  std::string sizes = {};        // of a series of all joints: the error of each in words
   std::vector<Move> moves = {};  // of a part that moved several times: all of them, in order
   double ln_bayes() const { return scored.evidence.ln_bayes; }
 

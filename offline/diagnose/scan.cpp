@@ -164,17 +164,6 @@ std::map<int, const Found*> best_at_joints(const std::vector<Found>& library) {
   return best;
 }
 
-std::string peaks_of(const WhitenedFit& s, const Found& found) {
-  const Regressor series = series_regressor(s, found.entry);
-  format::Model model;
-  model.calibrated = s.cell->nominal;
-  model.effects = {bind_effect(*s.cell, *s.measured, found.entry)};
-  for (Eigen::Index c = 0; c < found.scored.theta.size(); ++c)
-    model.effects[0].parameters[static_cast<std::size_t>(c)] =
-        found.scored.theta(c) * series.typical(c);
-  return series_words(*s.cell, model);
-}
-
 /// One series at these joints.
 std::optional<Found> series_at(const Scorer& scorer, const std::vector<int>& joints, double paid) {
   auto series = scan_series(scorer, joints);
@@ -207,7 +196,7 @@ std::optional<Found> found_series(const Scorer& scorer, const std::vector<Found>
     out = std::move(alone);
   }
   if (joints.size() > 1) out = series_at(scorer, joints, paid);
-  if (out) out->peaks = peaks_of(s, *out);
+  if (out) out->peaks = peaks_of(s, out->entry, out->scored);
   return out;
 }
 

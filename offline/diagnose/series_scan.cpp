@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/series_scan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
+#include "arm/effect_binding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/few_digits.hpp"
 #include "effects/registry.hpp"
@@ -19,6 +23,9 @@ constexpr std::array kSlopes = {0.0, 0.5, 1.0, 1.5};
 /// Prior over scatter of one reading at 1 m: half a decade apart.
 constexpr std::array kSizes = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
 constexpr double kFirstStep = 1.7;
+constexpr double kMostSlope = 4.0;          // that a cell can state
+constexpr double kFinestFactorOfAll = 1.2;  // hundreds of waves determine a prior no better
+constexpr double kMostOfSizes = 0.8;  // of the mean square of all joints: the others have less
 
 EffectEntry series_entry(std::vector<int> joints) {
   return {.name = series_effect(), .joints = std::move(joints), .options = {}, .place = {}};
@@ -116,15 +123,24 @@ struct SeriesEvidence {
 };
 
 /// As `evidence`, with a prior of its own for every column, in units of the scatter that is left.
-SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
-  const Eigen::VectorXd sigma = sigmas(sums, prior);
-  const Cholesky llt(with_prior(sigma.asDiagonal() * sums.gram * sigma.asDiagonal()));
+SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior,
+                             const std::vector<Eigen::Index>& columns) {
+  const Eigen::VectorXd sigma = sigmas(sums, prior)(columns);
+  const Eigen::MatrixXd gram = sums.gram(columns, columns);
+  const Cholesky llt(with_prior(sigma.asDiagonal() * gram * sigma.asDiagonal()));
   if (!llt.exists()) return {prior};
-  const Eigen::VectorXd v = sigma.cwiseProduct(sums.v);
+  const Eigen::VectorXd v = sigma.cwiseProduct(Eigen::VectorXd(sums.v(columns)));
   const double n = sums.scale.lines + sums.scale.dof;
   const EvidenceGain gain = evidence_gain(
       llt.ln_det(), sums.scale.dof * sums.scale.variance + sums.Q, v.dot(llt.solve(v)), n);
   return {prior, gain.ln_bayes, std::sqrt(gain.after / n)};
+}
+
+/// The same with all columns.
+SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(sums.v.size()));
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  return evidence_with(sums, prior, all);
 }
 
 /// Whether waves of this size are plausible for a gear. Within a range of the joint without poses
@@ -154,14 +170,14 @@ OverGrid over_grid(const SeriesSums& sums, double unit) {
 }
 
 /// Climbs from a prior of the grid, by steps that shrink.
-SeriesEvidence refined_prior(const SeriesSums& sums, SeriesEvidence best) {
-  for (double step = kFirstStep; step > kFinestFactor;) {
+SeriesEvidence refined_prior(const SeriesSums& sums, SeriesEvidence best, double finest) {
+  for (double step = kFirstStep; step > finest;) {
     bool better = false;
     const SeriesPrior from = best.prior;
     const double turn = 0.25 * (step - 1.0) / (kFirstStep - 1.0);
     for (const SeriesPrior& next :
          {SeriesPrior{from.ratio * step, from.slope}, SeriesPrior{from.ratio / step, from.slope},
-          SeriesPrior{from.ratio, from.slope + turn},
+          SeriesPrior{from.ratio, std::min(kMostSlope, from.slope + turn)},
           SeriesPrior{from.ratio, std::max(0.0, from.slope - turn)}}) {
       const SeriesEvidence there = evidence_with(sums, next);
       if (there.ln_bayes <= best.ln_bayes || !is_expected(there)) continue;
@@ -192,6 +208,73 @@ std::pair<int, double> weakest(const SeriesSums& sums, const SeriesEvidence& all
     if (all.ln_bayes - without < out.second) out = {joint, all.ln_bayes - without};
   }
   return out;
+}
+
+/// As if the waves of different joints were independent of each other: cheap, and a little too
+/// large where they are not.
+SeriesEvidence evidence_apart(const SeriesSums& sums, const std::vector<SeriesSums>& apart,
+                              const SeriesPrior& prior) {
+  const double n = sums.scale.lines + sums.scale.dof;
+  double ln_det = 0.0, explained = 0.0;
+  for (const SeriesSums& one : apart) {
+    const Eigen::VectorXd sigma = sigmas(one, prior);
+    const Cholesky llt(with_prior(sigma.asDiagonal() * one.gram * sigma.asDiagonal()));
+    if (!llt.exists()) return {prior};
+    const Eigen::VectorXd v = sigma.cwiseProduct(one.v);
+    ln_det += llt.ln_det();
+    explained += v.dot(llt.solve(v));
+  }
+  const EvidenceGain gain =
+      evidence_gain(ln_det, sums.scale.dof * sums.scale.variance + sums.Q, explained, n);
+  return {prior, gain.ln_bayes, std::sqrt(gain.after / n)};
+}
+
+/// The best prior of the grid, as if the joints were independent of each other.
+SeriesEvidence best_apart(const SeriesSums& sums, double unit) {
+  std::vector<SeriesSums> apart;
+  for (const int joint : sums.joints) apart.push_back(sums.of({joint}));
+  SeriesEvidence out;
+  for (const double slope : kSlopes)
+    for (const double size : kSizes)
+      if (const SeriesEvidence here = evidence_apart(sums, apart, {unit * size, slope});
+          is_expected(here) && here.ln_bayes > out.ln_bayes)
+        out = here;
+  return out;
+}
+
+/// The joints whose fast waves, which no smooth law imitates, have evidence beside all others.
+std::vector<int> joints_of_fast_waves(const SeriesSums& sums, const SeriesEvidence& all) {
+  std::vector<int> out;
+  const Eigen::Index each = 2 * sums.waves;
+  for (std::size_t i = 0; i < sums.joints.size(); ++i) {
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index c = 0; c < sums.v.size(); ++c)
+      if (c / each != static_cast<Eigen::Index>(i) || c % each < 2 * kSmoothWaves)
+        others.push_back(c);
+    if (all.ln_bayes - evidence_with(sums, all.prior, others).ln_bayes > kWaveOfAllPays)
+      out.push_back(sums.joints[i]);
+  }
+  return out;
+}
+
+SeriesFound found_with(const Scorer& scorer, const SeriesSums& sums, const SeriesEvidence& best,
+                       double ln_bayes) {
+  SeriesFound out{series_entry(sums.joints), {}};
+  set_option(out.entry, OptionKey::kWaves, static_cast<double>(sums.waves));
+  set_option(out.entry, OptionKey::kSize_urad, three_digits(1e6 * best.prior.ratio * best.scatter));
+  set_option(out.entry, OptionKey::kSlope, std::round(100.0 * best.prior.slope) / 100.0);
+  out.scored = score_series(scorer, out.entry);
+  out.scored.evidence.ln_bayes = ln_bayes - scorer.whitened().scatter_nats;
+  return out;
+}
+
+SeriesSums sums_of(const Scorer& scorer, const std::vector<int>& joints, int waves) {
+  const WhitenedFit& s = scorer.whitened();
+  Regressor plain;
+  plain.joints = joints;
+  plain.columns = waves_of(s, joints, 2 * waves);
+  const Products all = products_of_series(s, plain, {0, s.fit_poses()});
+  return {all.XX - all.UX.transpose() * all.UX, all.Xy, s.Q, scorer.scale(), waves, joints};
 }
 
 }  // namespace
@@ -270,12 +353,7 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
 std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints) {
   const WhitenedFit& s = scorer.whitened();
   if (joints.empty()) return std::nullopt;
-  Regressor plain;
-  plain.joints = joints;
-  plain.columns = waves_of(s, joints, 2 * kSeriesWaves);
-  const Products all = products_of_series(s, plain, {0, s.fit_poses()});
-  SeriesSums sums{
-      all.XX - all.UX.transpose() * all.UX, all.Xy, s.Q, scorer.scale(), kSeriesWaves, joints};
+  SeriesSums sums = sums_of(scorer, joints, kSeriesWaves);
   const double unit = 1.0 / lever_of(s, joints);
   OverGrid grid = over_grid(sums, unit);
   for (;;) {
@@ -287,14 +365,66 @@ std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<i
     sums = sums.of(others);
     grid = over_grid(sums, unit);
   }
-  const SeriesEvidence best = refined_prior(sums, grid.best);
-  SeriesFound out{series_entry(sums.joints), {}};
-  set_option(out.entry, OptionKey::kWaves, static_cast<double>(sums.waves));
-  set_option(out.entry, OptionKey::kSize_urad, three_digits(1e6 * best.prior.ratio * best.scatter));
-  set_option(out.entry, OptionKey::kSlope, std::round(100.0 * best.prior.slope) / 100.0);
-  out.scored = score_series(scorer, out.entry);
-  out.scored.evidence.ln_bayes = grid.ln_mean - s.scatter_nats;
+  return found_with(scorer, sums, refined_prior(sums, grid.best, kFinestFactor), grid.ln_mean);
+}
+
+std::optional<SeriesFound> scan_series_of_all(const Scorer& scorer, const std::vector<int>& joints,
+                                              double paid) {
+  const WhitenedFit& s = scorer.whitened();
+  if (joints.size() < kFewestJointsOfAll) return std::nullopt;
+  // The mean over a grid is at least the largest value divided by the number of its points.
+  const double grid = std::log(static_cast<double>(kSlopes.size() * kSizes.size()));
+  const double least = kSupported + grid + paid + s.scatter_nats;
+  SeriesSums sums = sums_of(scorer, joints, kWavesOfAll);
+  const SeriesEvidence apart = best_apart(sums, 1.0 / lever_of(s, joints));
+  if (!(apart.ln_bayes > kSupported)) return std::nullopt;
+  const auto climbed = [&](const SeriesPrior& from) {
+    return refined_prior(sums, evidence_with(sums, from), kFinestFactorOfAll);
+  };
+  SeriesEvidence best = climbed(apart.prior);
+  if (!(best.ln_bayes > least)) return std::nullopt;
+  const std::vector<int> some = joints_of_fast_waves(sums, best);
+  if (some.size() < kFewestJointsOfAll) return std::nullopt;
+  if (some.size() < joints.size()) {
+    sums = sums.of(some);
+    best = climbed(best.prior);
+  }
+  if (!(best.ln_bayes > least)) return std::nullopt;
+  return found_with(scorer, sums, best, best.ln_bayes - grid);
+}
+
+std::string sizes_of(const WhitenedFit& s, const EffectEntry& entry, const RegressorScore& scored) {
+  const Regressor series = series_regressor(s, entry);
+  const Eigen::VectorXd amplitude = scored.theta.cwiseProduct(series.typical);
+  const auto each = amplitude.size() / static_cast<Eigen::Index>(entry.joints.size());
+  std::vector<std::pair<double, int>> square;  // mean over a turn, and joint
+  for (std::size_t i = 0; i < entry.joints.size(); ++i)
+    square.emplace_back(
+        0.5 * amplitude.segment(static_cast<Eigen::Index>(i) * each, each).squaredNorm(),
+        entry.joints[i]);
+  std::sort(square.rbegin(), square.rend());
+  std::string out;
+  double told = 0.0;
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    if (i > 0 && told > kMostOfSizes * 0.5 * amplitude.squaredNorm())
+      return out + ", less at the others";
+    const double size = 1e6 * std::sqrt(square[i].first);
+    const auto& joint = s.cell->nominal.joints[static_cast<std::size_t>(square[i].second)].name;
+    out += i == 0 ? fmt::format("{:.1f} µrad RMS at {}", size, joint)
+                  : fmt::format(", {:.1f} at {}", size, joint);
+    told += square[i].first;
+  }
   return out;
+}
+
+std::string peaks_of(const WhitenedFit& s, const EffectEntry& entry, const RegressorScore& scored) {
+  const Regressor series = series_regressor(s, entry);
+  format::Model model;
+  model.calibrated = s.cell->nominal;
+  model.effects = {bind_effect(*s.cell, *s.measured, entry)};
+  for (Eigen::Index c = 0; c < scored.theta.size(); ++c)
+    model.effects[0].parameters[static_cast<std::size_t>(c)] = scored.theta(c) * series.typical(c);
+  return series_words(*s.cell, model);
 }
 
 }  // namespace plumb::offline

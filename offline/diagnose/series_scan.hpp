@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnose/regressor.hpp"
@@ -22,11 +23,28 @@ struct SeriesFound {
 /// (waves of all joints)^2, then (waves of all joints)^3 / 3 for each prior that is tried.
 std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints);
 
+/// One series of many small waves at all of these joints, none of which need show alone. A joint
+/// stays in it if its fast waves, which no smooth law imitates, have evidence beside the others.
+/// The prior is that of the largest evidence; the evidence given pays for the grid in which it is
+/// looked for. None if fewer than kFewestJointsOfAll joints stay, or if the evidence, less what was
+/// `paid` for the search, does not support it. Cost: as above, but only a few priors are tried.
+std::optional<SeriesFound> scan_series_of_all(const Scorer& scorer, const std::vector<int>& joints,
+                                              double paid);
+
 /// One series as it stands, with its prior as it is.
 RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);
 
 /// Its columns: 1 is one standard deviation of the prior.
 Regressor series_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
+
+/// The error of each joint, RMS over a turn, in words: "7.1 µrad RMS at J2, 4.0 at J3, less at the
+/// others".
+std::string sizes_of(const WhitenedFit& whitened, const EffectEntry& entry,
+                     const RegressorScore& scored);
+
+/// Its largest waves in words.
+std::string peaks_of(const WhitenedFit& whitened, const EffectEntry& entry,
+                     const RegressorScore& scored);
 
 /// The first waves of a series alone: what a smooth law could be mistaken for.
 Regressor smooth_part(const WhitenedFit& whitened, const Regressor& series);
