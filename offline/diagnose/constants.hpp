@@ -143,11 +143,12 @@ inline constexpr double kLargestWave_rad = 290e-6;
 inline constexpr Eigen::Index kSmoothWaves = 4;
 /// Single waves of one joint that make way for a series of it. odds.
 inline constexpr std::size_t kFewestForSeries = 3;
-/// Waves of a series of all joints, the joints it needs, and the least evidence of the fast waves
-/// of each.
+/// Waves of a series of all joints at each of them. arms; cost.
 inline constexpr int kWavesOfAll = 40;
+/// Joints that it needs: one alone is judged beside the other laws of that joint. odds.
 inline constexpr std::size_t kFewestJointsOfAll = 2;
-inline constexpr double kWaveOfAllPays = 1.0;
+/// Least evidence of the fast waves of each of its joints: 3 to 1. odds.
+inline constexpr double kFastWavesPay = 1.0;
 /// A wave at a joint that has a series is a whole number of cycles if it is so near to one. study.
 inline constexpr double kWholeWave = 0.15;
 

@@ -251,7 +251,7 @@ std::vector<int> joints_of_fast_waves(const SeriesSums& sums, const SeriesEviden
     for (Eigen::Index c = 0; c < sums.v.size(); ++c)
       if (c / each != static_cast<Eigen::Index>(i) || c % each < 2 * kSmoothWaves)
         others.push_back(c);
-    if (all.ln_bayes - evidence_with(sums, all.prior, others).ln_bayes > kWaveOfAllPays)
+    if (all.ln_bayes - evidence_with(sums, all.prior, others).ln_bayes > kFastWavesPay)
       out.push_back(sums.joints[i]);
   }
   return out;

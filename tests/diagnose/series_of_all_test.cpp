@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many small waves of all joints, none of which shows alone, are found together as one series.
+#include "diagnose/series_of_all.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "arm/predicted_points.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/effect_words.hpp"
+#include "fit/calibrate.hpp"
+#include "tests/diagnose/hiding.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// A dozen waves at each of six joints, whose amplitudes fall with their order. The largest one
+/// moves the point by less than a sixth of the noise.
+std::vector<std::string> many_small_waves(double largest_urad) {
+  std::vector<std::string> out;
+  for (int joint = 1; joint <= 6; ++joint)
+    for (int wave = 0; wave < 12; ++wave)
+      out.push_back(fmt::format("gear_ripple:J{}={:.4f}urad@cycles={}", joint,
+                                largest_urad / std::sqrt(1.0 + wave),
+                                1 + wave * 3 + (joint * 5 + wave * 7) % 3));
+  return out;
+}
+
+BlindRequest measured_well(std::vector<std::string> effects, int poses, std::uint64_t seed = 1) {
+  BlindRequest out = hiding(effects, poses, seed);
+  out.sigma_m = 10e-6;
+  out.fresh_poses = 300;
+  return out;
+}
+
+Diagnosis diagnosed(const BlindCase& blind) {
+  Diagnosis out = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+  std::printf("%s\n  %s\n", out.text.c_str(), out.text_after.c_str());
+  return out;
+}
+
+const Addition* series_of_several(const Diagnosis& d) {
+  const auto at = std::find_if(d.added.begin(), d.added.end(), [](const Addition& a) {
+    return a.entry.name == "joint_series" && a.entry.joints.size() > 1;
+  });
+  return at == d.added.end() ? nullptr : &*at;
+}
+
+/// RMS distance from the truth on fresh poses [m].
+double true_error(const BlindCase& blind, const std::vector<EffectEntry>& effects) {
+  Cell cell = blind.cell;
+  cell.effects = effects;
+  std::vector<int> rows(static_cast<std::size_t>(blind.measured.measured.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  const ArmState state = calibrate(cell, blind.measured.measured, rows).state;
+  const Simulation& fresh = blind.fresh_robot;
+  return std::sqrt((fresh.true_p_M - predict_points(state, fresh.measured)).squaredNorm() /
+                   static_cast<double>(fresh.true_p_M.rows()));
+}
+
+TEST(SeriesOfAll, ManySmallWavesThatDoNotShowAloneAreFoundTogether) {
+  const BlindCase blind = make_blind_case(measured_well(many_small_waves(1.5), 500));
+  const Diagnosis d = diagnosed(blind);
+  const Addition* series = series_of_several(d);
+  ASSERT_NE(series, nullptr) << d.text_after;
+  EXPECT_EQ(d.finding, Finding::kMissing) << d.text;
+  EXPECT_LT(true_error(blind, d.effects), 0.85 * true_error(blind, blind.cell.effects));
+  const std::string words = in_words(blind.cell, *series);
+  EXPECT_TRUE(says(words, "gear errors of several joints, ")) << words;
+  EXPECT_TRUE(says(words, " µrad RMS at J")) << words;
+}
+
+TEST(SeriesOfAll, ItIsNotAskedWhereThePosesCannotShowIt) {
+  const Diagnosis d = diagnosed(make_blind_case(measured_well(many_small_waves(3.0), 80)));
+  EXPECT_EQ(series_of_several(d), nullptr) << d.text_after;
+}
+
+TEST(SeriesOfAll, NothingOrOneEffectIsNoSeriesOfSeveralJoints) {
+  for (const auto& effects :
+       {std::vector<std::string>{}, std::vector<std::string>{"joint_compliance:J2:5"},
+        std::vector<std::string>{"gear_ripple:J2:5@cycles=17"},
+        std::vector<std::string>{"backlash_load:J2:4"}})
+    for (const std::uint64_t seed : {1U, 2U}) {
+      const Diagnosis d = diagnosed(make_blind_case(measured_well(effects, 300, seed)));
+      EXPECT_EQ(series_of_several(d), nullptr) << d.text_after;
+    }
+}
+
+}  // namespace
+}  // namespace plumb::offline
