@@ -147,7 +147,7 @@ inline constexpr std::size_t kFewestForSeries = 3;
 inline constexpr int kWavesOfAll = 40;
 /// Joints that it needs: one alone is judged beside the other laws of that joint. odds.
 inline constexpr std::size_t kFewestJointsOfAll = 2;
-/// Least evidence of the fast waves of each of its joints: 3 to 1. odds.
+/// Least evidence of the fast waves of so many of its joints: 3 to 1. odds.
 inline constexpr double kFastWavesPay = 1.0;
 /// A wave at a joint that has a series is a whole number of cycles if it is so near to one. study.
 inline constexpr double kWholeWave = 0.15;

@@ -242,19 +242,22 @@ SeriesEvidence best_apart(const SeriesSums& sums, double unit) {
   return out;
 }
 
-/// The joints whose fast waves, which no smooth law imitates, have evidence beside all others.
+/// The joints whose fast waves, which no smooth law imitates, speak for a series beside all others;
+/// none if too few of them do so clearly.
 std::vector<int> joints_of_fast_waves(const SeriesSums& sums, const SeriesEvidence& all) {
   std::vector<int> out;
+  std::size_t clear = 0;
   const Eigen::Index each = 2 * sums.waves;
   for (std::size_t i = 0; i < sums.joints.size(); ++i) {
     std::vector<Eigen::Index> others;
     for (Eigen::Index c = 0; c < sums.v.size(); ++c)
       if (c / each != static_cast<Eigen::Index>(i) || c % each < 2 * kSmoothWaves)
         others.push_back(c);
-    if (all.ln_bayes - evidence_with(sums, all.prior, others).ln_bayes > kFastWavesPay)
-      out.push_back(sums.joints[i]);
+    const double adds = all.ln_bayes - evidence_with(sums, all.prior, others).ln_bayes;
+    if (adds > 0.0) out.push_back(sums.joints[i]);
+    if (adds > kFastWavesPay) ++clear;
   }
-  return out;
+  return clear < kFewestJointsOfAll ? std::vector<int>{} : out;
 }
 
 SeriesFound found_with(const Scorer& scorer, const SeriesSums& sums, const SeriesEvidence& best,
@@ -384,7 +387,7 @@ std::optional<SeriesFound> scan_series_of_all(const Scorer& scorer, const std::v
   SeriesEvidence best = climbed(apart.prior);
   if (!(best.ln_bayes > least)) return std::nullopt;
   const std::vector<int> some = joints_of_fast_waves(sums, best);
-  if (some.size() < kFewestJointsOfAll) return std::nullopt;
+  if (some.empty()) return std::nullopt;
   if (some.size() < joints.size()) {
     sums = sums.of(some);
     best = climbed(best.prior);

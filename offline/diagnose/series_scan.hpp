@@ -24,10 +24,11 @@ struct SeriesFound {
 std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints);
 
 /// One series of many small waves at all of these joints, none of which need show alone. A joint
-/// stays in it if its fast waves, which no smooth law imitates, have evidence beside the others.
-/// The prior is that of the largest evidence; the evidence given pays for the grid in which it is
-/// looked for. None if fewer than kFewestJointsOfAll joints stay, or if the evidence, less what was
-/// `paid` for the search, does not support it. Cost: as above, but only a few priors are tried.
+/// stays in it if its fast waves, which no smooth law imitates, have evidence beside the others;
+/// those of kFewestJointsOfAll joints must have kFastWavesPay. The prior is that of the largest
+/// evidence; the evidence given pays for the grid in which it is looked for. None if the evidence,
+/// less what was `paid` for the search, does not support it. Cost: as above, but only a few priors
+/// are tried.
 std::optional<SeriesFound> scan_series_of_all(const Scorer& scorer, const std::vector<int>& joints,
                                               double paid);
 
