@@ -385,7 +385,7 @@ std::optional<SeriesFound> scan_series_of_all(const Scorer& scorer, const std::v
     return refined_prior(sums, evidence_with(sums, from), kFinestFactorOfAll);
   };
   SeriesEvidence best = climbed(apart.prior);
-  if (!(best.ln_bayes > least)) return std::nullopt;
+  if (!(best.ln_bayes > kSupported)) return std::nullopt;
   const std::vector<int> some = joints_of_fast_waves(sums, best);
   if (some.empty()) return std::nullopt;
   if (some.size() < joints.size()) {
