@@ -94,6 +94,11 @@ JudgedFit scattered(const WhitenedFit& whitened, const ScatterLines& lines,
 
 }  // namespace
 
+double scatter_nats(const WhitenedFit& whitened) {
+  const ScatterLines lines = scatter_lines(whitened);
+  return std::max(0.0, nats_over(lines, noise_and_scatter(lines), noise_alone(lines)));
+}
+
 JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testable,
                  const std::vector<std::string>& banned) {
   JudgedFit out;

@@ -26,4 +26,8 @@ struct JudgedFit {
 JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testable,
                  const std::vector<std::string>& banned);
 
+/// How much better scatter of the joints explains the residual than noise alone [nats], at least 0.
+/// Cost: as noise_and_scatter.
+double scatter_nats(const WhitenedFit& whitened);
+
 }  // namespace plumb::offline

@@ -6,6 +6,7 @@
 
 #include "diagnose/constants.hpp"
 #include "diagnose/found_list.hpp"
+#include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/rms_reduction.hpp"
 #include "diagnose/series_scan.hpp"
@@ -65,6 +66,9 @@ std::optional<Found> series_of_all(const WhitenedFit& whitened, const Calibratio
   auto series = scan_series_of_all(scorer, joints_to_ask(whitened), paid);
   if (!series) return std::nullopt;
   Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
+  // Hundreds of waves imitate the scatter of the joints, which looks the same at poses far from
+  // each other. A scan that has found no candidate was not asked what that explains.
+  out.scored.evidence.ln_bayes -= std::max(0.0, scatter_nats(whitened) - whitened.scatter_nats);
   out.score = out.ln_bayes() - paid;
   if (!(out.score > kSupported) || is_remainder(*whitened.cell, whitened, calibration, out))
     return std::nullopt;
