@@ -247,7 +247,7 @@ Larger with_a_prior_by_evidence(Way way, double error) {
 
 // How far this arm is built from nominal is decided by what its poses clearly tell.
 TEST_P(PosesAlongAWay, OfAnArmThatIsMillimetresOffPredictOthersAsWell) {
-  constexpr double kLittle = 0.1;  // beside errors of millimetres there, and what others gain
+  constexpr double kLittle = 0.1;  // beside errors of millimetres there
   EXPECT_LT(with_a_prior_by_evidence(GetParam(), 4e-3).mean, kLittle);
 }
 
