@@ -47,40 +47,37 @@ double told_nats(const WhitenedFit& whitened, const Found& first, const Found& o
   return kTold_nats + kLawLeaves * kLawLeaves * times * seen_nats;
 }
 
-/// The candidates that are another finding than `first` and not too far behind it in evidence.
-std::vector<const Found*> near(const WhitenedFit& whitened, const std::vector<Found>& all,
-                               const Found& first) {
-  std::vector<const Found*> others;
+/// Takes out the candidates that are too far behind `first` to be the true cause.
+void drop_told(const WhitenedFit& whitened, const Found& first, std::vector<const Found*>& others) {
   double most_shown = shown(first);
-  for (const auto& other : all) {
-    if (&other == &first || !(other.ln_bayes() > 0.0) || one_finding(other.entry, first.entry))
-      continue;
-    others.push_back(&other);
-    if (driven_by_load(other)) most_shown = std::max(most_shown, shown(other));
-  }
+  for (const Found* other : others)
+    if (driven_by_load(*other)) most_shown = std::max(most_shown, shown(*other));
   std::erase_if(others, [&](const Found* other) {
     return first.ln_bayes() - other->ln_bayes() >= told_nats(whitened, first, *other, most_shown);
   });
-  return others;
+}
+
+/// The candidates that are another finding than `first` and not too far behind it in evidence.
+std::vector<const Found*> near(const WhitenedFit& whitened, const std::vector<Found>& all,
+                               const Found& first) {
+  std::vector<const Found*> out;
+  for (const auto& other : all)
+    if (&other != &first && other.ln_bayes() > 0.0 && !one_finding(other.entry, first.entry))
+      out.push_back(&other);
+  drop_told(whitened, first, out);
+  return out;
 }
 
 /// Those of `near` that imitate `first` as it imitates them, and so cannot be told from it.
 std::vector<const Found*> cannot_be_told(const WhitenedFit& whitened, const std::vector<Found>& all,
                                          const Found& first) {
-  std::vector<const Found*> others = near(whitened, all, first);
+  const std::vector<const Found*> others = near(whitened, all, first);
   const std::vector<double> alike = mutual_reproduction(whitened, first, others);
-  double most_shown = shown(first);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    if (alike[i] < kConfounded)
-      others[i] = nullptr;
-    else if (driven_by_load(*others[i]))
-      most_shown = std::max(most_shown, shown(*others[i]));
-  }
-  std::erase_if(others, [&](const Found* other) {
-    return other == nullptr ||
-           first.ln_bayes() - other->ln_bayes() >= told_nats(whitened, first, *other, most_shown);
-  });
-  return others;
+  std::vector<const Found*> out;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (alike[i] >= kConfounded) out.push_back(others[i]);
+  drop_told(whitened, first, out);
+  return out;
 }
 
 /// Laws of the library that change with time or a temperature.

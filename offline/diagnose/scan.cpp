@@ -40,19 +40,10 @@ bool has_with_other_constant(const WhitenedFit& whitened, const EffectEntry& ent
                      });
 }
 
-/// Whether the model has a series of waves at that joint.
-bool has_series_at(const WhitenedFit& whitened, int joint) {
-  return std::any_of(
-      whitened.cell->effects.begin(), whitened.cell->effects.end(), [&](const EffectEntry& e) {
-        return is_series(e.name) && (e.joints.empty() || std::find(e.joints.begin(), e.joints.end(),
-                                                                   joint) != e.joints.end());
-      });
-}
-
 /// Whether a series that the model has describes the same motion.
 bool is_in_a_series(const WhitenedFit& whitened, const EffectEntry& entry) {
   return descriptor_of(entry.name).cause == Cause::kUnevenGear && entry.joints.size() == 1 &&
-         has_series_at(whitened, entry.joints.front());
+         has_series_at(whitened.cell->effects, entry.joints.front());
 }
 
 /// Whether an entry is not to be tried: it failed before, or the model has it.
@@ -66,7 +57,7 @@ bool is_out(const WhitenedFit& whitened, const std::vector<std::string>& banned,
 /// Waves of one joint as one candidate. The evidence is lowered by the price of the search for each
 /// wave.
 std::optional<Found> found_ripples(const Scorer& scorer, Ripples waves, double paid) {
-  const bool in_series = has_series_at(scorer.whitened(), waves.joint);
+  const bool in_series = has_series_at(scorer.whitened().cell->effects, waves.joint);
   if (in_series)
     std::erase_if(waves.cycles, [](double k) { return std::abs(k - std::round(k)) < kWholeWave; });
   if (waves.cycles.empty()) return std::nullopt;
@@ -189,7 +180,7 @@ std::optional<Found> found_series(const Scorer& scorer, const std::vector<Found>
   std::vector<int> joints;
   std::optional<Found> out;
   for (const auto& [joint, best] : best_at_joints(library)) {
-    if (!s.chain.revolute(joint) || has_series_at(s, joint)) continue;
+    if (!s.chain.revolute(joint) || has_series_at(s.cell->effects, joint)) continue;
     auto alone = series_at(scorer, {joint}, paid);
     if (!alone || !takes_the_place(*alone, *best)) continue;
     joints.push_back(joint);

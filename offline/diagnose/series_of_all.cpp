@@ -15,18 +15,11 @@
 namespace plumb::offline {
 namespace {
 
-bool has_series_at(const Cell& cell, int joint) {
-  return std::any_of(cell.effects.begin(), cell.effects.end(), [&](const EffectEntry& e) {
-    return is_series(e.name) && (e.joints.empty() || std::find(e.joints.begin(), e.joints.end(),
-                                                               joint) != e.joints.end());
-  });
-}
-
 /// The joints that turn and have no series yet.
 std::vector<int> joints_to_ask(const WhitenedFit& s) {
   std::vector<int> out;
   for (int j = 0; j < s.joints(); ++j)
-    if (s.chain.revolute(j) && !has_series_at(*s.cell, j)) out.push_back(j);
+    if (s.chain.revolute(j) && !has_series_at(s.cell->effects, j)) out.push_back(j);
   return out;
 }
 

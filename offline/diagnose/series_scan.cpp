@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "arm/effect_binding.hpp"
 #include "diagnose/constants.hpp"
@@ -122,25 +121,39 @@ struct SeriesEvidence {
   double scatter = 0.0;  // of what is left, whitened
 };
 
-/// As `evidence`, with a prior of its own for every column, in units of the scatter that is left.
-SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior,
-                             const std::vector<Eigen::Index>& columns) {
-  const Eigen::VectorXd sigma = sigmas(sums, prior)(columns);
-  const Eigen::MatrixXd gram = sums.gram(columns, columns);
+/// What waves with a prior of their own for every column add to the evidence, in units of the
+/// scatter that is left.
+struct SeriesTerms {
+  double ln_det = 0.0, explained = 0.0;
+};
+
+/// sigma: of the prior of each column. Nothing if the equations cannot be solved.
+std::optional<SeriesTerms> terms_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moments,
+                                    const Eigen::VectorXd& sigma) {
   const Cholesky llt(with_prior(sigma.asDiagonal() * gram * sigma.asDiagonal()));
-  if (!llt.exists()) return {prior};
-  const Eigen::VectorXd v = sigma.cwiseProduct(Eigen::VectorXd(sums.v(columns)));
+  if (!llt.exists()) return std::nullopt;
+  const Eigen::VectorXd v = sigma.cwiseProduct(moments);
+  return SeriesTerms{llt.ln_det(), v.dot(llt.solve(v))};
+}
+
+SeriesEvidence evidence_of(const SeriesSums& sums, const SeriesPrior& prior,
+                           const std::optional<SeriesTerms>& terms) {
+  if (!terms) return {prior};
   const double n = sums.scale.lines + sums.scale.dof;
   const EvidenceGain gain = evidence_gain(
-      llt.ln_det(), sums.scale.dof * sums.scale.variance + sums.Q, v.dot(llt.solve(v)), n);
+      terms->ln_det, sums.scale.dof * sums.scale.variance + sums.Q, terms->explained, n);
   return {prior, gain.ln_bayes, std::sqrt(gain.after / n)};
 }
 
-/// The same with all columns.
+/// Of all columns, and of some.
 SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(sums.v.size()));
-  std::iota(all.begin(), all.end(), Eigen::Index{0});
-  return evidence_with(sums, prior, all);
+  return evidence_of(sums, prior, terms_of(sums.gram, sums.v, sigmas(sums, prior)));
+}
+
+SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior,
+                             const std::vector<Eigen::Index>& columns) {
+  const Eigen::VectorXd sigma = sigmas(sums, prior)(columns);
+  return evidence_of(sums, prior, terms_of(sums.gram(columns, columns), sums.v(columns), sigma));
 }
 
 /// Whether waves of this size are plausible for a gear. Within a range of the joint without poses
@@ -153,12 +166,15 @@ struct OverGrid {
   SeriesEvidence best;
   double ln_mean = kImpossible;
 };
-OverGrid over_grid(const SeriesSums& sums, double unit) {
+
+/// evidence_at: of a prior; unit: of its width.
+template <class EvidenceAt>
+OverGrid over_grid(double unit, const EvidenceAt& evidence_at) {
   std::vector<double> ln;
   OverGrid out;
   for (const double slope : kSlopes)
     for (const double size : kSizes) {
-      const SeriesEvidence here = evidence_with(sums, {unit * size, slope});
+      const SeriesEvidence here = evidence_at(SeriesPrior{unit * size, slope});
       if (!is_expected(here)) continue;
       ln.push_back(here.ln_bayes);
       if (here.ln_bayes > out.best.ln_bayes) out.best = here;
@@ -167,6 +183,10 @@ OverGrid over_grid(const SeriesSums& sums, double unit) {
   for (const double l : ln) sum += std::exp(l - out.best.ln_bayes);
   out.ln_mean = out.best.ln_bayes + std::log(sum / static_cast<double>(ln.size()));
   return out;
+}
+
+OverGrid over_grid(const SeriesSums& sums, double unit) {
+  return over_grid(unit, [&](const SeriesPrior& prior) { return evidence_with(sums, prior); });
 }
 
 /// Climbs from a prior of the grid, by steps that shrink.
@@ -210,36 +230,22 @@ std::pair<int, double> weakest(const SeriesSums& sums, const SeriesEvidence& all
   return out;
 }
 
-/// As if the waves of different joints were independent of each other: cheap, and a little too
-/// large where they are not.
-SeriesEvidence evidence_apart(const SeriesSums& sums, const std::vector<SeriesSums>& apart,
-                              const SeriesPrior& prior) {
-  const double n = sums.scale.lines + sums.scale.dof;
-  double ln_det = 0.0, explained = 0.0;
-  for (const SeriesSums& one : apart) {
-    const Eigen::VectorXd sigma = sigmas(one, prior);
-    const Cholesky llt(with_prior(sigma.asDiagonal() * one.gram * sigma.asDiagonal()));
-    if (!llt.exists()) return {prior};
-    const Eigen::VectorXd v = sigma.cwiseProduct(one.v);
-    ln_det += llt.ln_det();
-    explained += v.dot(llt.solve(v));
-  }
-  const EvidenceGain gain =
-      evidence_gain(ln_det, sums.scale.dof * sums.scale.variance + sums.Q, explained, n);
-  return {prior, gain.ln_bayes, std::sqrt(gain.after / n)};
-}
-
-/// The best prior of the grid, as if the joints were independent of each other.
+/// The best prior of the grid, as if the waves of different joints were independent of each other:
+/// cheap, and its evidence a little too large where they are not.
 SeriesEvidence best_apart(const SeriesSums& sums, double unit) {
   std::vector<SeriesSums> apart;
   for (const int joint : sums.joints) apart.push_back(sums.of({joint}));
-  SeriesEvidence out;
-  for (const double slope : kSlopes)
-    for (const double size : kSizes)
-      if (const SeriesEvidence here = evidence_apart(sums, apart, {unit * size, slope});
-          is_expected(here) && here.ln_bayes > out.ln_bayes)
-        out = here;
-  return out;
+  const auto evidence_at = [&](const SeriesPrior& prior) {
+    SeriesTerms all;
+    for (const SeriesSums& one : apart) {
+      const auto terms = terms_of(one.gram, one.v, sigmas(one, prior));
+      if (!terms) return SeriesEvidence{prior};
+      all.ln_det += terms->ln_det;
+      all.explained += terms->explained;
+    }
+    return evidence_of(sums, prior, all);
+  };
+  return over_grid(unit, evidence_at).best;
 }
 
 /// The joints whose fast waves, which no smooth law imitates, speak for a series beside all others;
@@ -281,6 +287,13 @@ SeriesSums sums_of(const Scorer& scorer, const std::vector<int>& joints, int wav
 }
 
 }  // namespace
+
+bool has_series_at(const std::vector<EffectEntry>& effects, int joint) {
+  return std::any_of(effects.begin(), effects.end(), [&](const EffectEntry& e) {
+    return is_series(e.name) && (e.joints.empty() || std::find(e.joints.begin(), e.joints.end(),
+                                                               joint) != e.joints.end());
+  });
+}
 
 Regressor series_regressor(const WhitenedFit& s, const EffectEntry& entry) {
   const double slope = number_option(entry, OptionKey::kSlope, 0.0);

@@ -32,6 +32,9 @@ std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<i
 std::optional<SeriesFound> scan_series_of_all(const Scorer& scorer, const std::vector<int>& joints,
                                               double paid);
 
+/// Whether one of the effects is a series of waves at that joint.
+bool has_series_at(const std::vector<EffectEntry>& effects, int joint);
+
 /// One series as it stands, with its prior as it is.
 RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);
 

@@ -17,6 +17,7 @@
 #include "show/diagnose_view.hpp"
 #include "tests/diagnose/begun.hpp"
 #include "tests/diagnose/hiding.hpp"
+#include "tests/diagnose/true_error.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -43,16 +44,6 @@ BlindCase pushed_or_warm(const std::vector<std::string>& effects, double lean_ra
     m.p_M.row(i) += lean_M.cross(p_M - base_M).transpose();
   }
   return out;
-}
-
-/// Per-axis RMS from the truth on fresh poses [m], where nobody pushes.
-double true_error_of(const BlindCase& blind, const std::vector<EffectEntry>& effects) {
-  Cell cell = blind.cell;
-  cell.effects = effects;
-  const ArmState state = calibrate(cell, blind.measured.measured, all_rows(blind)).state;
-  const Simulation& fresh = blind.fresh_robot;
-  const Rows3 error = fresh.true_p_M - predict_points(state, fresh.measured);
-  return std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
 }
 
 Diagnosis applied(const BlindCase& blind) {

@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
-#include "arm/predicted_points.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/effect_words.hpp"
-#include "fit/calibrate.hpp"
 #include "tests/diagnose/hiding.hpp"
+#include "tests/diagnose/true_error.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -59,18 +57,6 @@ std::vector<EffectEntry> without_series(std::vector<EffectEntry> effects) {
   return effects;
 }
 
-/// RMS distance from the truth on fresh poses [m].
-double true_error(const BlindCase& blind, const std::vector<EffectEntry>& effects) {
-  Cell cell = blind.cell;
-  cell.effects = effects;
-  std::vector<int> rows(static_cast<std::size_t>(blind.measured.measured.size()));
-  std::iota(rows.begin(), rows.end(), 0);
-  const ArmState state = calibrate(cell, blind.measured.measured, rows).state;
-  const Simulation& fresh = blind.fresh_robot;
-  return std::sqrt((fresh.true_p_M - predict_points(state, fresh.measured)).squaredNorm() /
-                   static_cast<double>(fresh.true_p_M.rows()));
-}
-
 // The limits are signs alone, which no figure seen has set: whatever the series costs in variance,
 // with it the arm must be nearer to the truth, and to poses that it has not seen, than the same
 // diagnosis is without it. Noise may lift one of the waves above the others, which is then found
@@ -85,8 +71,8 @@ TEST(SeriesOfAll, ManySmallWavesThatDoNotShowAloneAreFoundTogether) {
     if (series == nullptr) continue;
     ++found;
     EXPECT_EQ(d.finding, Finding::kMissing) << d.text;
-    const double with = true_error(blind, d.effects);
-    const double without = true_error(blind, without_series(d.effects));
+    const double with = true_error_of(blind, d.effects);
+    const double without = true_error_of(blind, without_series(d.effects));
     std::printf("seed %d: true error %.2f -> %.2f um\n", static_cast<int>(seed), 1e6 * without,
                 1e6 * with);
     EXPECT_LT(with, without) << "seed " << seed;
