@@ -174,7 +174,10 @@ struct CoarseFit {
   std::vector<Outlier> outliers;
 
   double scatter() const {
-    return usual_scatter(deletion_distances(data, solution, subset.kept), data.per_pose());
+    const LineTable table = data.line_table();
+    return usual_scatter(
+        comparable(deletion_distances(data, solution, subset.kept), table, table.most()),
+        table.most());
   }
 };
 

@@ -65,7 +65,10 @@ class ModelLines {
     for (const std::size_t i : chosen) data_.rows.push_back(rows_[i]);
     Solution model = evaluate(data_, state_, fitted_);
     const Solution joints = evaluate(data_, state_, offsets_);
-    ScatterLines out{std::move(model.residual), std::move(model.jacobian), {}, data_.per_pose()};
+    ScatterLines out{std::move(model.residual),
+                     std::move(model.jacobian),
+                     {},
+                     data_.lines_of(data_.rows.front())};
     for (const auto motion : joints.jacobian.colwise()) out.joint.emplace_back(motion);
     return out;
   }

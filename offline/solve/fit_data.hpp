@@ -6,6 +6,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "solve/known_arm.hpp"
+#include "solve/line_table.hpp"
 #include "solve/weak_directions.hpp"
 
 namespace plumb::offline {
@@ -22,8 +23,12 @@ struct FitData {
   KnownArm arm = {};           // prior of the fitted numbers by an earlier calibration
   bool series = false;         // the amplitudes of series of waves are fitted as well
 
-  int per_pose() const;        // residuals of one pose
-  int residual_count() const;  // of all poses, priors not counted
+  /// Residuals of one row of the measurements.
+  int lines_of(int row) const;
+  /// Residuals of all rows, priors not counted.
+  int residual_count() const;
+  /// Where those of each of `rows` stand. Cost: rows.
+  LineTable line_table() const;
 };
 
 }  // namespace plumb::offline

@@ -15,6 +15,7 @@ FitLines::FitLines(const FitData& data, const ArmState& start,
     : data_(data),
       start_(start),
       parameters_(parameters),
+      table_(data.line_table()),
       poses_(data, parameters),
       priors_(data, start, parameters) {}
 
@@ -24,12 +25,12 @@ bool FitLines::evaluate(const Eigen::VectorXd& change, double* residual, double*
   const GeometryDerivative geometry =
       jacobian != nullptr ? GeometryDerivative(start_, parameters_, change)
                           : GeometryDerivative(moved(start_, parameters_, change), {}, {});
-  const int rows = static_cast<int>(data_.rows.size()), lines = data_.per_pose();
+  const int rows = static_cast<int>(data_.rows.size());
   const int blocks = (rows + kRowsOfOneThread - 1) / kRowsOfOneThread;
   std::vector<PoseLines::Undefined> undefined(static_cast<std::size_t>(blocks));
   const auto evaluate_block = [&](int block) {
     const int first = block * kRowsOfOneThread;
-    const Eigen::Index line = static_cast<Eigen::Index>(first) * lines;
+    const Eigen::Index line = table_.begin(first);
     undefined[static_cast<std::size_t>(block)] =
         poses_.evaluate(geometry, first, std::min(rows, first + kRowsOfOneThread), residual + line,
                         jacobian == nullptr ? nullptr : jacobian + line * columns);
@@ -40,7 +41,7 @@ bool FitLines::evaluate(const Eigen::VectorXd& change, double* residual, double*
       undefined_ = one;
       return false;
     }
-  const Eigen::Index line = static_cast<Eigen::Index>(rows) * lines;
+  const Eigen::Index line = table_.lines();
   priors_.evaluate(geometry.state(), residual + line,
                    jacobian == nullptr ? nullptr : jacobian + line * columns);
   return std::all_of(residual, residual + count(), [](double r) { return std::isfinite(r); });

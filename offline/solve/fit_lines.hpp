@@ -18,7 +18,7 @@ class FitLines {
   /// Keeps references to all three.
   FitLines(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters);
 
-  int count() const { return data_.residual_count() + priors_.count(); }
+  int count() const { return static_cast<int>(table_.lines()) + priors_.count(); }
 
   /// residual: shape (count,); jacobian: derivatives of the residuals, row by row, or null if they
   /// are not wanted. Returns false if a residual is not finite.
@@ -31,6 +31,7 @@ class FitLines {
   const FitData& data_;
   const ArmState& start_;
   const std::vector<Parameter>& parameters_;
+  LineTable table_;
   PoseLines poses_;
   PriorLines priors_;
   mutable PoseLines::Undefined undefined_;

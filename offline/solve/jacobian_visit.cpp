@@ -16,10 +16,11 @@ void visit_jacobian(const FitData& data, const ArmState& state,
   const PoseLines poses(data, parameters);
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
-  const int rows = static_cast<int>(data.rows.size()), lines = data.per_pose();
+  const LineTable table = data.line_table();
+  const int rows = static_cast<int>(data.rows.size());
   const auto visit_block = [&](int block) {
     const int first = block * kRowsOfOneThread, last = std::min(rows, first + kRowsOfOneThread);
-    Eigen::VectorXd residual(Eigen::Index{last - first} * lines);
+    Eigen::VectorXd residual(table.count(first, last));
     RowMajorMatrix J(residual.size(), count);
     const auto [row, effect] = poses.evaluate(geometry, first, last, residual.data(), J.data());
     if (row >= 0) refuse_undefined(data, state.arm.effects[static_cast<std::size_t>(effect)], row);

@@ -38,14 +38,15 @@ double deletion_distance(const Lines& residual, const LinesSquare& hat, double p
 }  // namespace
 
 Eigen::VectorXd plain_distances(const FitData& data, const Solution& at) {
-  const Eigen::Index k = data.per_pose();
-  Eigen::VectorXd out(static_cast<Eigen::Index>(data.rows.size()));
-  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = at.residual.segment(k * i, k).norm();
+  const LineTable table = data.line_table();
+  Eigen::VectorXd out(table.readings());
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out(i) = at.residual.segment(table.begin(i), table.count(i)).norm();
   return out;
 }
 
-Leverage::Leverage(const FitData& data) : rows_(data.rows), lines_(data.per_pose()) {
-  hat_.setZero(lines_ * lines_, static_cast<Eigen::Index>(rows_.size()));
+Leverage::Leverage(const FitData& data) : rows_(data.rows), table_(data.line_table()) {
+  hat_.setZero(table_.most() * table_.most(), table_.readings());
 }
 
 Leverage::Leverage(const FitData& data, const Solution& at) : Leverage(data) { from_jacobian(at); }
@@ -59,26 +60,28 @@ Leverage::Leverage(const FitData& data, const Solution& at,
   }
   visit_jacobian(data, at.state, parameters, [&](int first, const RowMajorMatrix& J) {
     const Eigen::MatrixXd Q = upper_transposed_solved(at.jacobian, J.transpose());
-    for (Eigen::Index i = 0; i < J.rows() / lines_; ++i)
-      put(first + i, Q.middleCols(lines_ * i, lines_).transpose());
+    for (Eigen::Index i = first, line = 0; line < J.rows(); line += table_.count(i++))
+      put(i, Q.middleCols(line, table_.count(i)).transpose());
   });
 }
 
 void Leverage::from_jacobian(const Solution& at) {
   if (at.jacobian.cols() == 0) return;
   const Eigen::MatrixXd Q = orthonormal_rows(at.jacobian);
-  for (Eigen::Index i = 0; i < hat_.cols(); ++i) put(i, Q.middleRows(lines_ * i, lines_));
+  for (Eigen::Index i = 0; i < hat_.cols(); ++i)
+    put(i, Q.middleRows(table_.begin(i), table_.count(i)));
 }
 
 template <class Lines>
 void Leverage::put(Eigen::Index pose, const Lines& orthonormal) {
   const LinesSquare hat = orthonormal * orthonormal.transpose();
-  hat_.col(pose) = hat.reshaped();
+  hat_.col(pose).head(hat.size()) = hat.reshaped();
 }
 
 Eigen::VectorXd Leverage::distances(const FitData& data, const Solution& now) const {
   Eigen::VectorXd out = plain_distances(data, now);
   const bool same = data.rows == rows_;
+  const LineTable table = data.line_table();
   std::size_t known = 0;
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
     const int row = data.rows[i];
@@ -87,8 +90,9 @@ Eigen::VectorXd Leverage::distances(const FitData& data, const Solution& now) co
     if (known == rows_.size()) break;
     if (rows_[known] != row) continue;
     const auto at = static_cast<Eigen::Index>(i);
-    const LinesSquare hat = hat_.col(static_cast<Eigen::Index>(known)).reshaped(lines_, lines_);
-    out(at) = deletion_distance(now.residual.segment(lines_ * at, lines_), hat, out(at));
+    const auto own = static_cast<Eigen::Index>(known), lines = table_.count(own);
+    const LinesSquare hat = hat_.col(own).head(lines * lines).reshaped(lines, lines);
+    out(at) = deletion_distance(now.residual.segment(table.begin(at), lines), hat, out(at));
   }
   return out;
 }

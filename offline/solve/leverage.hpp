@@ -17,7 +17,7 @@ Eigen::VectorXd plain_distances(const FitData& data, const Solution& at);
 ///
 ///   H = J (J^T J)^-1 J^T
 ///
-/// at a solution. Memory: per_pose^2 numbers for every pose.
+/// at a solution. Memory: the square of the lines of a pose, for every pose.
 /// [Cook & Weisberg 1982]
 class Leverage {
  public:
@@ -40,8 +40,8 @@ class Leverage {
   void put(Eigen::Index pose, const Lines& orthonormal);
 
   std::vector<int> rows_;
-  Eigen::Index lines_;   // per pose
-  Eigen::MatrixXd hat_;  // shape (lines_^2, rows)
+  LineTable table_;
+  Eigen::MatrixXd hat_;  // shape (table_.most()^2, rows)
 };
 
 }  // namespace plumb::offline

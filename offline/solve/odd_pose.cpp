@@ -12,14 +12,16 @@ namespace plumb::offline {
 /// with an error of e = (I - H_ii)^-1 r_i, and their own residuals become r_j + H_ji e
 /// [Cook & Weisberg 1982].
 std::optional<std::size_t> odd_pose(const FitData& data, const Solution& solution) {
-  const Eigen::Index lines = data.per_pose(), all = solution.residual.size();
+  const LineTable table = data.line_table();
+  const Eigen::Index all = solution.residual.size();
   const Eigen::MatrixXd Q = orthonormal(solution.jacobian, all).U;
-  const double left = static_cast<double>(all - lines - Q.cols());
-  if (left < kFewestLines) return std::nullopt;
   std::optional<std::size_t> out;
   double farthest = kOutlierTimes;
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
-    const Eigen::Index at = lines * static_cast<Eigen::Index>(i);
+    const auto reading = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = table.begin(reading), lines = table.count(reading);
+    const double left = static_cast<double>(all - lines - Q.cols());
+    if (left < kFewestLines) continue;
     const Eigen::MatrixXd own = Q.middleRows(at, lines);
     const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(lines, lines) - own * own.transpose();
     const auto alone = solved_if_regular(rest, solution.residual.segment(at, lines));

@@ -29,10 +29,11 @@ struct FarRows {
   double share = 0.0;  // of the cost that is due to `rows`
 };
 
-/// distance: deletion distances of the rows of `data`; plain: their whitened residuals.
-FarRows far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance,
+/// distance: deletion distances of the rows of `data`, as if each had so many `lines`; plain: their
+/// whitened residuals.
+FarRows far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance, Eigen::Index lines,
                           const Eigen::VectorXd& plain) {
-  const double limit = std::max(kOutlierTimes * usual_scatter(distance, data.per_pose()),
+  const double limit = std::max(kOutlierTimes * usual_scatter(distance, lines),
                                 kFarthestFirst * distance.maxCoeff());
   FarRows out;
   double squares = 0.0;
@@ -76,12 +77,20 @@ bool keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>
   return taken.size() < before;
 }
 
-/// Those rows of `taken` that a fit without them predicts within the limit of an outlier after all.
-std::vector<int> agreeing(const FitData& data, const std::vector<int>& taken, const Solution& fit,
-                          double scatter) {
+/// Distances of the rows `taken` from what a fit without them predicts, comparable with those of
+/// readings of so many `lines`.
+Eigen::VectorXd distances_of(const FitData& data, const std::vector<int>& taken,
+                             const Solution& fit, Eigen::Index lines) {
   FitData others = data;
   others.rows = taken;
-  const Eigen::VectorXd distance = plain_distances(others, evaluate(others, fit.state, {}));
+  return comparable(plain_distances(others, evaluate(others, fit.state, {})), others.line_table(),
+                    lines);
+}
+
+/// Those rows of `taken` that a fit without them predicts within the limit of an outlier after all.
+std::vector<int> agreeing(const FitData& data, const std::vector<int>& taken, const Solution& fit,
+                          Eigen::Index lines, double scatter) {
+  const Eigen::VectorXd distance = distances_of(data, taken, fit, lines);
   std::vector<int> out;
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (distance(i) <= kOutlierTimes * scatter) out.push_back(taken[i]);
@@ -89,10 +98,8 @@ std::vector<int> agreeing(const FitData& data, const std::vector<int>& taken, co
 }
 
 std::vector<Outlier> described(const FitData& data, const std::vector<int>& taken,
-                               const Solution& fit, double scatter) {
-  FitData others = data;
-  others.rows = taken;
-  const Eigen::VectorXd distance = plain_distances(others, evaluate(others, fit.state, {}));
+                               const Solution& fit, Eigen::Index lines, double scatter) {
+  const Eigen::VectorXd distance = distances_of(data, taken, fit, lines);
   const Measurements some = pick(*data.measured, taken);
   const Rows3 error = residuals(some, predict_points(fit.state, some));
   std::vector<Outlier> out;
@@ -117,15 +124,22 @@ Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution
   return Leverage(data, solution, parameters).distances(data, solution);
 }
 
-double usual_scatter(const Eigen::VectorXd& distances, int per_pose) {
+double usual_scatter(const Eigen::VectorXd& distances, Eigen::Index lines) {
   if (distances.size() == 0) return 1.0;
   const double middle = median({distances.data(), distances.data() + distances.size()});
-  return std::max(1.0, middle / kMedianChi[per_pose]);
+  return std::max(1.0, middle / kMedianChi[lines]);
+}
+
+Eigen::VectorXd comparable(Eigen::VectorXd distances, const LineTable& table, Eigen::Index lines) {
+  for (Eigen::Index i = 0; i < distances.size(); ++i)
+    distances(i) *= kMedianChi[lines] / kMedianChi[table.count(i)];
+  return distances;
 }
 
 std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Parameter>& parameters,
                                             Solution& solution) {
   const std::vector<int> all = data.rows;
+  const Eigen::Index lines = data.line_table().most();
   const ArmState start = solution.state;
   // Of many rows, only the last solution is computed to the full tolerance.
   const bool many = is_many(data, parameters);
@@ -139,9 +153,10 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
   std::set<int> kept_whole;  // set-ups of which nothing is taken out
   for (;;) {
     if (!many && !leverage_is_current) leverage = Leverage(data, solution, parameters);
-    const Eigen::VectorXd distance = leverage.distances(data, solution);
-    scatter = usual_scatter(distance, data.per_pose());
-    FarRows far = far_from_the_rest(data, distance, plain_distances(data, solution));
+    const Eigen::VectorXd distance =
+        comparable(leverage.distances(data, solution), data.line_table(), lines);
+    scatter = usual_scatter(distance, lines);
+    FarRows far = far_from_the_rest(data, distance, lines, plain_distances(data, solution));
     const bool restored = keep_setups(data, all, kept_whole, taken, far);
     if (many && far.rows.empty() && !restored && !leverage_is_current) {
       // The leverage of a fit with more rows is an approximation; the last look needs the exact
@@ -160,7 +175,8 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
         return {};
       }
     } else {
-      const auto back = came_back ? std::vector<int>{} : agreeing(data, taken, solution, scatter);
+      const auto back =
+          came_back ? std::vector<int>{} : agreeing(data, taken, solution, lines, scatter);
       if (back.empty()) break;
       came_back = true;
       const std::unordered_set<int> returned(back.begin(), back.end());
@@ -174,7 +190,7 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
     solution = solve(data, from, parameters, tolerance);
   }
   if (many) solution = solve(data, ArmState(solution.state), parameters, kSolved);
-  return described(data, taken, solution, scatter);
+  return described(data, taken, solution, lines, scatter);
 }
 
 }  // namespace plumb::offline

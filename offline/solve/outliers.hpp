@@ -22,9 +22,13 @@ Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution
 Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution,
                                    const std::vector<Parameter>& parameters);
 
-/// Usual size of such distances: their median over the median that noise of the stated sigma gives,
-/// but at least 1.
-double usual_scatter(const Eigen::VectorXd& distances, int per_pose);
+/// Usual size of such distances of readings of so many lines: their median over the median that
+/// noise of the stated sigma gives, but at least 1.
+double usual_scatter(const Eigen::VectorXd& distances, Eigen::Index lines);
+
+/// Distances of readings as if each of them had so many lines: noise of the stated sigma then gives
+/// them all the same median.
+Eigen::VectorXd comparable(Eigen::VectorXd distances, const LineTable& table, Eigen::Index lines);
 
 /// Least squares without the poses that the others contradict: farther away than 6 times the usual
 /// scatter. The farthest ones are taken out first and the fit is repeated until none is left; poses

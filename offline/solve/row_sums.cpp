@@ -21,21 +21,21 @@ RowSums sums_at(const FitData& data, const ArmState& state,
   const PriorLines priors(data, state, parameters);
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
-  const int rows = static_cast<int>(data.rows.size()), lines = data.per_pose();
+  const LineTable table = data.line_table();
+  const int rows = static_cast<int>(data.rows.size());
   RowSums none;
   none.information.setZero(count, count);
   none.gradient.setZero(count);
   RowSums out = none;
-  out.residual.resize(data.residual_count() + priors.count());
+  out.residual.resize(table.lines() + priors.count());
   std::vector<RowSums> parts(kParts, none);
   const auto sum_part = [&](int part) {
     RowSums& sums = parts[static_cast<std::size_t>(part)];
     const auto begin_of = [&](int p) { return static_cast<int>(std::int64_t{rows} * p / kParts); };
-    RowMajorMatrix J(kRowsOfOneThread * lines, count);
+    RowMajorMatrix J(kRowsOfOneThread * table.most(), count);
     for (int first = begin_of(part); first < begin_of(part + 1); first += kRowsOfOneThread) {
       const int last = std::min(begin_of(part + 1), first + kRowsOfOneThread);
-      auto r =
-          out.residual.segment(Eigen::Index{first} * lines, Eigen::Index{last - first} * lines);
+      auto r = out.residual.segment(table.begin(first), table.count(first, last));
       sums.undefined = poses.evaluate(geometry, first, last, r.data(), J.data());
       if (sums.undefined.row >= 0) return;
       sums.add(J.topRows(r.size()), r);
@@ -43,7 +43,7 @@ RowSums sums_at(const FitData& data, const ArmState& state,
   };
   run_jobs(kParts, sum_part);
   for (const auto& part : parts) out.add(part);
-  auto known = out.residual.tail(out.residual.size() - Eigen::Index{rows} * lines);
+  auto known = out.residual.tail(out.residual.size() - table.lines());
   RowMajorMatrix J(known.size(), count);
   priors.evaluate(state, known.data(), J.data());
   out.add(J, known);

@@ -14,11 +14,12 @@ Eigen::MatrixXd jacobian_for_all(const FitData& all, const FitData& some, const 
   Eigen::MatrixXd J = evaluate(some, state, parameters).jacobian;
   std::map<int, int> of_all = rows_by_setup(*all.measured, all.rows),
                      of_some = rows_by_setup(*some.measured, some.rows);
-  const Eigen::Index lines = some.per_pose();
+  const LineTable table = some.line_table();
   for (std::size_t i = 0; i < some.rows.size(); ++i) {
     const int setup = setup_of(*some.measured, some.rows[i]);
     const double times = static_cast<double>(of_all[setup]) / of_some[setup];
-    J.middleRows(static_cast<Eigen::Index>(i) * lines, lines) *= std::sqrt(times);
+    const auto reading = static_cast<Eigen::Index>(i);
+    J.middleRows(table.begin(reading), table.count(reading)) *= std::sqrt(times);
   }
   return J;
 }

@@ -46,7 +46,7 @@ class SeriesProblem {
         with_joints_(parameters),
         series_(series_numbers(start.arm)),
         poses_(static_cast<Eigen::Index>(data.rows.size())),
-        lines_(data.per_pose()) {
+        table_(data.line_table()) {
     data_.series = false;
     Eigen::Index count = 0;
     for (const auto& one : series_) count += one.count;
@@ -72,7 +72,7 @@ class SeriesProblem {
     SeriesPoint out{.state = state, .residual = std::move(here.residual)};
     out.J = here.jacobian.leftCols(count());
     out.joint =
-        here.jacobian.topRightCorner(poses_ * lines_, static_cast<Eigen::Index>(series_.size()));
+        here.jacobian.topRightCorner(table_.lines(), static_cast<Eigen::Index>(series_.size()));
     const Chain chain(state.arm.calibrated);
     for (std::size_t s = 0; s < series_.size(); ++s)
       out.joint.col(static_cast<Eigen::Index>(s)) *= chain.scale(series_[s].joint);
@@ -147,7 +147,8 @@ class SeriesProblem {
     const Eigen::MatrixXd lines = of_lines;
     Eigen::MatrixXd out(poses_, lines.cols());
     for (Eigen::Index c = 0; c < lines.cols(); ++c)
-      out.col(c) = lines.col(c).reshaped(lines_, poses_).colwise().sum().transpose();
+      for (Eigen::Index i = 0; i < poses_; ++i)
+        out(i, c) = lines.col(c).segment(table_.begin(i), table_.count(i)).sum();
     return out;
   }
 
@@ -155,7 +156,8 @@ class SeriesProblem {
   const std::vector<Parameter>& parameters_;
   std::vector<Parameter> with_joints_;
   std::vector<SeriesNumbers> series_;
-  Eigen::Index poses_, lines_;
+  Eigen::Index poses_;
+  LineTable table_;
   std::vector<Eigen::MatrixXd> waves_;  // of each series, shape (poses, numbers)
   Eigen::VectorXd sigma_;
 };

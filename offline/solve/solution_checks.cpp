@@ -44,8 +44,8 @@ void check_enough(const FitData& data, std::size_t kept, const std::vector<Param
         "{}: enough for arm, frame and target, too few for the {} more "
         "parameters of {}",
         given, of_effects, effect);
-    problem.help =
-        fmt::format("name fewer of its joints, or fit more than {} poses", all / data.per_pose());
+    problem.help = fmt::format("name fewer of its joints, or fit more than {} poses",
+                               all / std::max(1, data.lines_of(data.rows.front())));
   }
   throw Failure(Exit::kNumbersSayNo, std::move(problem));
 }
