@@ -87,8 +87,11 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
   const auto U = s.U.topRows(s.fit_lines);
   moved -= U * (U.transpose() * moved).eval();
   for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
-    unwhiten(s, i, moved.segment(i * s.axes, s.axes));
-  return moved.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
+    unwhiten(s, i, moved.segment(s.table.begin(i), s.table.count(i)));
+  double out = 0.0;
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
+    out = std::max(out, moved.segment(s.table.begin(i), s.table.count(i)).norm());
+  return out;
 }
 
 /// The candidate as reported: the effect, its numbers and its evidence; errors are still empty.

@@ -116,11 +116,12 @@ class CutSearch {
 
  private:
   void pass(int visit) {
-    const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
-    const auto X = motions_.middleRows(at, s_.axes);
-    behind_.add(X, y_.segment(at, s_.axes));
-    behind_.add_model(0, model_.middleCols(at, s_.axes), X);
-    behind_.add_model(s_.rank, others_.middleCols(at, s_.axes), X);
+    const Eigen::Index pose = order_[static_cast<std::size_t>(visit)];
+    const Eigen::Index at = s_.table.begin(pose), lines = s_.table.count(pose);
+    const auto X = motions_.middleRows(at, lines);
+    behind_.add(X, y_.segment(at, lines));
+    behind_.add_model(0, model_.middleCols(at, lines), X);
+    behind_.add_model(s_.rank, others_.middleCols(at, lines), X);
   }
   RunningSums::Square gram() const { return behind_.XX - behind_.UX.transpose() * behind_.UX; }
 
@@ -131,9 +132,10 @@ class CutSearch {
         Eigen::MatrixXd::Zero(motions_.rows(), each * static_cast<Eigen::Index>(cuts.size()));
     for (std::size_t k = 0; k < cuts.size(); ++k)
       for (int visit = cuts[k]; visit < poses(); ++visit) {
-        const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
-        out.block(at, static_cast<Eigen::Index>(k) * each, s_.axes, each) =
-            motions_.middleRows(at, s_.axes);
+        const Eigen::Index pose = order_[static_cast<std::size_t>(visit)];
+        const Eigen::Index at = s_.table.begin(pose), lines = s_.table.count(pose);
+        out.block(at, static_cast<Eigen::Index>(k) * each, lines, each) =
+            motions_.middleRows(at, lines);
       }
     return out;
   }
@@ -313,8 +315,8 @@ std::vector<Move> sized_moves(const WhitenedFit& s, const Regressor& regressor,
     int behind = 0;
     for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
       if (!(s.context[static_cast<std::size_t>(i)].order > move.after_row - 0.5)) continue;
-      unwhiten(s, i, moved.segment(i * s.axes, s.axes));
-      sum += moved.segment(i * s.axes, s.axes).squaredNorm();
+      unwhiten(s, i, moved.segment(s.table.begin(i), s.table.count(i)));
+      sum += moved.segment(s.table.begin(i), s.table.count(i)).squaredNorm();
       ++behind;
     }
     move.size_m = std::sqrt(sum / std::max(1, behind));

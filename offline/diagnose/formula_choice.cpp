@@ -129,7 +129,7 @@ double left_in(const Scorer& scorer, std::size_t f, const Regressor* some,
                const RegressorScore& scored) {
   const WhitenedFit& s = scorer.whitened();
   const Segment& at = s.folds[f];
-  const auto lines = Eigen::seqN(at.begin * s.axes, at.size() * s.axes);
+  const auto lines = Eigen::seqN(s.table.begin(at.begin), s.table.count(at.begin, at.end));
   const auto fitted = some == nullptr ? scorer.without(f) : scorer.without(f, scored);
   Eigen::VectorXd out = s.y(lines) - s.U(lines, Eigen::all) * fitted.model;
   if (some != nullptr) out -= motion(s, *some, fitted.regressor)(lines);

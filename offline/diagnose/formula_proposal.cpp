@@ -54,7 +54,7 @@ Regressor columns_of(const WhitenedFit& s, const Pattern& pattern, const Moved& 
   out.joint = pattern.joint;
   const auto count = static_cast<Eigen::Index>(terms.size());
   const bool of_joint = pattern.joint >= 0;
-  out.columns.resize(of_joint ? s.poses() : s.poses() * s.axes, count);
+  out.columns.resize(of_joint ? s.poses() : s.table.lines(), count);
   out.typical.resize(count);
   const Eigen::MatrixXd& carriers = pattern.subject == kTheBase ? s.base : s.tool;
   for (Eigen::Index c = 0; c < count; ++c) {
@@ -63,7 +63,7 @@ Regressor columns_of(const WhitenedFit& s, const Pattern& pattern, const Moved& 
     for (Eigen::Index i = 0; i < out.columns.rows(); ++i)
       out.columns(i, c) =
           out.typical(c) *
-          (of_joint ? term.value(i) : term.value(i / s.axes) * carriers(i, component));
+          (of_joint ? term.value(i) : term.value(s.table.reading(i)) * carriers(i, component));
   }
   return out;
 }

@@ -10,14 +10,14 @@ namespace {
 void add_norms(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines,
                std::vector<double>& out) {
   for (Eigen::Index i = 0; i < at.size(); ++i) {
-    Eigen::VectorXd error = lines.segment(i * s.axes, s.axes);
+    Eigen::VectorXd error = lines.segment(s.table.begin(i), s.table.count(i));
     unwhiten(s, at.begin + i, error);
     out.push_back(error.norm());
   }
 }
 
 auto lines_of(const WhitenedFit& s, const Segment& at) {
-  return Eigen::seqN(at.begin * s.axes, at.size() * s.axes);
+  return Eigen::seqN(s.table.begin(at.begin), s.table.count(at.begin, at.end));
 }
 
 /// Whitened lines of a fold as the others predict them: without the regressor, and with it.
@@ -51,12 +51,12 @@ ErrorStats held_out_error(const Scorer& scorer) {
   std::vector<double> norms;
   if (s.held.size() > 0) {
     add_norms(s, s.held, s.y(lines_of(s, s.held)), norms);
-    return usual_errors(std::move(norms), s.axes, s.sigma_m);
+    return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
   }
   norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
     add_norms(s, s.folds[f], left_in_fold(scorer, f), norms);
-  return usual_errors(std::move(norms), s.axes, s.sigma_m);
+  return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
 }
 
 ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
@@ -68,12 +68,12 @@ ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
     const Eigen::VectorXd moved = motion(s, regressor, scored.theta);
     const Eigen::VectorXd a = -(s.U.topRows(s.fit_lines).transpose() * moved.head(s.fit_lines));
     add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - moved(at), norms);
-    return usual_errors(std::move(norms), s.axes, s.sigma_m);
+    return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
   }
   norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
     add_norms(s, s.folds[f], left_in_fold(scorer, f, in_folds), norms);
-  return usual_errors(std::move(norms), s.axes, s.sigma_m);
+  return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
 }
 
 Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds) {

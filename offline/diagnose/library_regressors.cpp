@@ -78,17 +78,17 @@ void joint_columns(const Bound& bound, Regressor& out) {
 
 void motion_columns(const Bound& bound, Regressor& out) {
   const WhitenedFit& s = bound.whitened;
-  out.columns.setZero(s.poses() * s.axes, bound.count());
+  out.columns.setZero(s.table.lines(), bound.count());
   differentiate(bound, [&](Eigen::Index i, Eigen::Index c, Eigen::Index lane, const auto& motion) {
     Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
     const Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
     d = s.R_MB[i] * (d + cross<double>(e, s.arm_B[i]));
-    auto lines = out.columns.col(c).segment(i * s.axes, s.axes);
+    auto lines = out.columns.col(c).segment(s.table.begin(i), s.table.count(i));
     for (int k = 0, line = 0; k < 3; ++k)
       if (s.measured->has_axis[k]) lines(line++) = d(k);
     whiten(s, i, lines);
     for (int j = 0; j < s.joints(); ++j)
-      lines += s.joint[j].segment(i * s.axes, s.axes) * motion.dq[j].d(lane);
+      lines += s.joint[j].segment(s.table.begin(i), s.table.count(i)) * motion.dq[j].d(lane);
   });
 }
 

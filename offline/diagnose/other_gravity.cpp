@@ -81,7 +81,7 @@ class Axes {
     }
     for (Index p = 0; p < parameters; ++p) {
       const double size = X.middleCols(3 * p, 3).norm() /
-                          std::sqrt(static_cast<double>(std::max<Index>(1, s.fit_lines / s.axes)));
+                          std::sqrt(static_cast<double>(std::max<Index>(1, s.fit_poses())));
       if (!(size > 0.0)) continue;
       X.middleCols(3 * p, 3) *= kTypicalMotion_m / s.sigma_m / size;
     }

@@ -100,8 +100,9 @@ Regressor on_body(const WhitenedFit& s, bool base, Pattern pattern,
       const Eigen::Index c = h * carriers.cols() + k;
       out.typical(c) = k < 3 ? kShift_m : kTurn_rad;
       for (Eigen::Index i = 0; i < s.poses(); ++i)
-        out.columns.col(c).segment(i * s.axes, s.axes) =
-            carriers.col(k).segment(i * s.axes, s.axes) * (shapes[h](i) * out.typical(c));
+        out.columns.col(c).segment(s.table.begin(i), s.table.count(i)) =
+            carriers.col(k).segment(s.table.begin(i), s.table.count(i)) *
+            (shapes[h](i) * out.typical(c));
     }
   return out;
 }

@@ -27,7 +27,7 @@ Products products_of_joint(const WhitenedFit& s, const Regressor& regressor, con
 }
 
 Products products_of_motions(const WhitenedFit& s, const Regressor& regressor, const Segment& at) {
-  const Eigen::Index first = at.begin * s.axes, count = at.size() * s.axes;
+  const Eigen::Index first = s.table.begin(at.begin), count = s.table.count(at.begin, at.end);
   const auto X = regressor.columns.middleRows(first, count);
   Products out;
   out.XX = gram_matrix(X);
@@ -83,8 +83,10 @@ Scorer::Scorer(const WhitenedFit& whitened)
   const Eigen::Index p = whitened.rank;
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(p, p);
   for (const auto& at : whitened.folds) {
-    const auto U = whitened.U.middleRows(at.begin * whitened.axes, at.size() * whitened.axes);
-    const auto y = whitened.y.segment(at.begin * whitened.axes, at.size() * whitened.axes);
+    const auto U = whitened.U.middleRows(whitened.table.begin(at.begin),
+                                         whitened.table.count(at.begin, at.end));
+    const auto y =
+        whitened.y.segment(whitened.table.begin(at.begin), whitened.table.count(at.begin, at.end));
     Fold fold;
     fold.UU = gram_matrix(U);
     fold.Uy = U.transpose() * y;
@@ -240,7 +242,8 @@ Scorer::Cleared Scorer::cleared_without(std::size_t f, const std::vector<Product
   out.Q = whitened_.Q - fold.yy - Uy.dot(fold.without * Uy);
   out.scale = scale_;
   out.scale.lines =
-      std::max(1.0, scale_.lines - static_cast<double>(whitened_.folds[f].size() * whitened_.axes));
+      std::max(1.0, scale_.lines - static_cast<double>(whitened_.table.count(
+                                       whitened_.folds[f].begin, whitened_.folds[f].end)));
   return out;
 }
 

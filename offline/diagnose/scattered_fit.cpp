@@ -35,22 +35,34 @@ std::vector<Stop> stops_of_fit(const WhitenedFit& s) {
   return out;
 }
 
-Eigen::MatrixXd merged(const Eigen::MatrixXd& lines, const std::vector<Stop>& stops, int axes) {
-  Eigen::MatrixXd out =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(stops.size()) * axes, lines.cols());
+LineTable table_of(const WhitenedFit& s, const std::vector<Stop>& stops) {
+  std::vector<Eigen::Index> first;
+  for (const Stop& stop : stops) first.push_back(stop.first);
+  return s.table.picked(first);
+}
+
+Eigen::MatrixXd merged(const Eigen::MatrixXd& lines, const std::vector<Stop>& stops,
+                       const LineTable& from, const LineTable& to) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(to.lines(), lines.cols());
   for (std::size_t i = 0; i < stops.size(); ++i) {
-    auto block = out.middleRows(static_cast<Eigen::Index>(i) * axes, axes);
+    const auto stop = static_cast<Eigen::Index>(i);
+    auto block = out.middleRows(to.begin(stop), to.count(stop));
     for (Eigen::Index k = stops[i].first; k < stops[i].last; ++k)
-      block += lines.middleRows(k * axes, axes);
+      block += lines.middleRows(from.begin(k), from.count(k));
     block /= std::sqrt(static_cast<double>(stops[i].last - stops[i].first));
   }
   return out;
 }
 
 ScatterLines lines_of_stops(const WhitenedFit& s, const std::vector<Stop>& stops) {
-  ScatterLines out{merged(s.y, stops, s.axes), merged(s.U, stops, s.axes),       {}, s.axes,
-                   s.noise.variance,           s.noise.known ? s.noise.dof : 0.0};
-  for (const auto& motion : s.joint) out.joint.emplace_back(merged(motion, stops, s.axes));
+  const LineTable table = table_of(s, stops);
+  ScatterLines out{merged(s.y, stops, s.table, table),
+                   merged(s.U, stops, s.table, table),
+                   {},
+                   table,
+                   s.noise.variance,
+                   s.noise.known ? s.noise.dof : 0.0};
+  for (const auto& motion : s.joint) out.joint.emplace_back(merged(motion, stops, s.table, table));
   return out;
 }
 
@@ -65,24 +77,26 @@ void keep_first_of(const std::vector<Stop>& stops, const WhitenedFit& s, Whitene
     out.context.push_back(s.context[at]);
     out.R_MB.push_back(s.R_MB[at]);
     out.arm_B.push_back(s.arm_B[at]);
-    for (int k = 0; k < s.axes; ++k)
-      out.sigma.push_back(s.sigma[static_cast<std::size_t>(stop.first * s.axes + k)] / root);
+    for (Eigen::Index k = s.table.begin(stop.first); k < s.table.begin(stop.first + 1); ++k)
+      out.sigma.push_back(s.sigma[static_cast<std::size_t>(k)] / root);
   }
 }
 
 PoseRoot root_of(const ScatterLines& lines, const JointScatter& scatter, Eigen::Index pose) {
-  PoseRoot V = scatter.noise_variance * PoseRoot::Identity(lines.axes, lines.axes);
+  PoseRoot V =
+      scatter.noise_variance * PoseRoot::Identity(lines.table.count(pose), lines.table.count(pose));
   for (std::size_t j = 0; j < lines.joint.size(); ++j) {
-    const auto g = lines.joint[j].segment(pose * lines.axes, lines.axes);
+    const auto g = lines.joint[j].segment(lines.table.begin(pose), lines.table.count(pose));
     V += scatter.variance(static_cast<Eigen::Index>(j)) * g * g.transpose();
   }
   return V.llt().matrixL();
 }
 
 template <class Lines>
-void divide(const std::vector<PoseRoot>& root, int axes, Lines& lines) {
+void divide(const std::vector<PoseRoot>& root, const LineTable& table, Lines& lines) {
   for (std::size_t i = 0; i < root.size(); ++i) {
-    auto block = lines.middleRows(static_cast<Eigen::Index>(i) * axes, axes);
+    const auto pose = static_cast<Eigen::Index>(i);
+    auto block = lines.middleRows(table.begin(pose), table.count(pose));
     root[i].triangularView<Eigen::Lower>().solveInPlace(block);
   }
 }
@@ -90,9 +104,9 @@ void divide(const std::vector<PoseRoot>& root, int axes, Lines& lines) {
 double typical_sigma(const WhitenedFit& s) {
   double squares = 0.0;
   for (Eigen::Index i = 0; i < s.poses(); ++i)
-    for (int k = 0; k < s.axes; ++k)
-      squares += std::pow(s.sigma[i * s.axes + k], 2) * s.root[i].row(k).squaredNorm();
-  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, s.poses() * s.axes)));
+    for (Eigen::Index k = 0; k < s.table.count(i); ++k)
+      squares += std::pow(s.sigma[s.table.begin(i) + k], 2) * s.root[i].row(k).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, s.table.lines())));
 }
 
 }  // namespace
@@ -105,7 +119,7 @@ ScatterLines scatter_lines(const WhitenedFit& s, const Eigen::MatrixXd& columns)
   const auto stops = stops_of_fit(s);
   ScatterLines out = lines_of_stops(s, stops);
   Eigen::MatrixXd J(out.U.rows(), out.U.cols() + columns.cols());
-  J << out.U, merged(columns, stops, s.axes);
+  J << out.U, merged(columns, stops, s.table, out.table);
   out.U = orthonormal(J, J.rows()).U;
   return out;
 }
@@ -122,7 +136,6 @@ WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {
   WhitenedFit out;
   out.cell = s.cell;
   out.measured = s.measured;
-  out.axes = s.axes;
   out.chain = s.chain;
   out.sensors = s.sensors;
   out.noise = s.noise;
@@ -135,19 +148,20 @@ WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {
     out.folds.push_back({begin, static_cast<Eigen::Index>(stops.size())});
   }
   out.held.begin = static_cast<Eigen::Index>(stops.size());
-  out.fit_lines = out.held.begin * s.axes;
   for (Eigen::Index i = s.held.begin; i < s.held.end; ++i) stops.push_back({i, i + 1});
   out.held.end = static_cast<Eigen::Index>(stops.size());
+  out.table = table_of(s, stops);
+  out.fit_lines = out.table.begin(out.held.begin);
   keep_first_of(stops, s, out);
   ScatterLines lines = lines_of_stops(s, stops);
   for (Eigen::Index i = 0; i < out.held.end; ++i) out.root.push_back(root_of(lines, scatter, i));
-  out.base = merged(s.base, stops, s.axes);
-  out.tool = merged(s.tool, stops, s.axes);
-  divide(out.root, s.axes, lines.y);
-  divide(out.root, s.axes, lines.U);
-  divide(out.root, s.axes, out.base);
-  divide(out.root, s.axes, out.tool);
-  for (auto& motion : lines.joint) divide(out.root, s.axes, motion);
+  out.base = merged(s.base, stops, s.table, out.table);
+  out.tool = merged(s.tool, stops, s.table, out.table);
+  divide(out.root, out.table, lines.y);
+  divide(out.root, out.table, lines.U);
+  divide(out.root, out.table, out.base);
+  divide(out.root, out.table, out.tool);
+  for (auto& motion : lines.joint) divide(out.root, out.table, motion);
   out.joint = std::move(lines.joint);
   out.y = std::move(lines.y);
   auto [U, half] = orthonormal(lines.U, out.fit_lines);

@@ -48,7 +48,11 @@ Eigen::MatrixXd waves_of(const WhitenedFit& s, const std::vector<int>& joints, i
 
 /// Sum over the lines of a pose of the motions of two joints.
 Eigen::VectorXd both_by_pose(const WhitenedFit& s, int a, int b) {
-  return s.joint[a].cwiseProduct(s.joint[b]).reshaped(s.axes, s.poses()).colwise().sum();
+  const Eigen::VectorXd product = s.joint[a].cwiseProduct(s.joint[b]);
+  Eigen::VectorXd out(s.poses());
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out(i) = product.segment(s.table.begin(i), s.table.count(i)).sum();
+  return out;
 }
 
 Products products_of_series(const WhitenedFit& s, const Regressor& series, const Segment& at) {

@@ -13,8 +13,7 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
         pose.push_back(i);
     out.folds.push_back({begin, static_cast<Eigen::Index>(pose.size())});
   }
-  for (const auto i : pose)
-    for (int k = 0; k < whitened.axes; ++k) line.push_back(i * whitened.axes + k);
+  line = whitened.table.lines_of(pose);
   out.cell = whitened.cell;
   out.measured = whitened.measured;
   for (const auto i : pose) {
@@ -29,7 +28,7 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
   }
   for (const auto l : line) out.sigma.push_back(whitened.sigma[static_cast<std::size_t>(l)]);
   out.held = {static_cast<Eigen::Index>(pose.size()), static_cast<Eigen::Index>(pose.size())};
-  out.axes = whitened.axes;
+  out.table = whitened.table.picked(pose);
   out.fit_lines = static_cast<Eigen::Index>(line.size());
   out.noise = whitened.noise;
   out.sigma_m = whitened.sigma_m;

@@ -42,6 +42,13 @@ void deal(const Measurements& measured, const std::vector<int>& fit, const std::
   out.held.end = static_cast<Eigen::Index>(out.row.size());
 }
 
+LineTable lines_of_poses(const WhitenedFit& s) {
+  FitData data;
+  data.measured = s.measured;
+  data.rows = s.row;
+  return data.line_table();
+}
+
 NoiseScale noise_scale(const NoiseFloor& floor, double sigma_m) {
   NoiseScale out;
   const double sigma = std::max(floor.sigma_m, kSmallestSigma_m);
@@ -78,7 +85,7 @@ void look(const ArmState& state, WhitenedFit& out) {
 /// Writes a motion of the target (measurement frame) into the lines of one pose, whitened.
 template <class Lines>
 void put(const WhitenedFit& s, Eigen::Index pose, const Vector3& v_M, Lines&& lines) {
-  Eigen::Index line = pose * s.axes;
+  Eigen::Index line = s.table.begin(pose);
   for (int k = 0; k < 3; ++k)
     if (s.measured->has_axis[k]) {
       lines(line) = v_M(k) / s.sigma[line];
@@ -87,7 +94,7 @@ void put(const WhitenedFit& s, Eigen::Index pose, const Vector3& v_M, Lines&& li
 }
 
 void fill_carriers(WhitenedFit& s) {
-  const Eigen::Index lines = s.poses() * s.axes;
+  const Eigen::Index lines = s.table.lines();
   s.joint.assign(s.joints(), Eigen::VectorXd(lines));
   s.base.resize(lines, 6);
   s.tool.resize(lines, 3);
@@ -139,7 +146,7 @@ void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3&
   const Solution at = evaluate(data, calibration.state,
                                with_smooth_waves(calibration.state, calibration.parameters));
   s.y = at.residual;
-  s.fit_lines = s.fit_poses() * s.axes;
+  s.fit_lines = s.table.begin(s.fit_poses());
   auto [U, half] = orthonormal(at.jacobian, s.fit_lines);
   s.rank = U.cols();
   s.U = std::move(U);
@@ -150,12 +157,13 @@ void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3&
 
 /// Sum over the lines of each pose.
 template <class Product>
-Eigen::MatrixXd by_pose(const Product& lines, int axes) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(lines.rows() / axes, lines.cols());
+Eigen::MatrixXd by_pose(const Product& lines, const LineTable& table) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(table.readings(), lines.cols());
   for (Eigen::Index c = 0; c < lines.cols(); ++c)
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
       double sum = 0.0;
-      for (int k = 0; k < axes; ++k) sum += lines(i * axes + k, c);
+      for (Eigen::Index line = table.begin(i); line < table.begin(i + 1); ++line)
+        sum += lines(line, c);
       out(i, c) = sum;
     }
   return out;
@@ -164,14 +172,14 @@ Eigen::MatrixXd by_pose(const Product& lines, int axes) {
 }  // namespace
 
 void whiten(const WhitenedFit& s, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines) {
-  for (int k = 0; k < s.axes; ++k) lines(k) /= s.sigma[pose * s.axes + k];
+  for (Eigen::Index k = 0; k < lines.size(); ++k) lines(k) /= s.sigma[s.table.begin(pose) + k];
   if (!s.root.empty()) s.root[pose].triangularView<Eigen::Lower>().solveInPlace(lines);
 }
 
 void unwhiten(const WhitenedFit& s, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines) {
   if (!s.root.empty())
     lines = (s.root[pose].triangularView<Eigen::Lower>() * Eigen::VectorXd(lines)).eval();
-  for (int k = 0; k < s.axes; ++k) lines(k) *= s.sigma[pose * s.axes + k];
+  for (Eigen::Index k = 0; k < lines.size(); ++k) lines(k) *= s.sigma[s.table.begin(pose) + k];
 }
 
 void fold_joints(WhitenedFit& s) {
@@ -179,10 +187,10 @@ void fold_joints(WhitenedFit& s) {
   s.joint_y.clear();
   s.joint_U.clear();
   for (int j = 0; j < s.joints(); ++j) {
-    s.joint_square.push_back(by_pose(s.joint[j].cwiseAbs2(), s.axes));
-    s.joint_y.push_back(by_pose(s.joint[j].cwiseProduct(s.y), s.axes));
+    s.joint_square.push_back(by_pose(s.joint[j].cwiseAbs2(), s.table));
+    s.joint_y.push_back(by_pose(s.joint[j].cwiseProduct(s.y), s.table));
     const Eigen::MatrixXd product = s.joint[j].asDiagonal() * s.U;
-    s.joint_U.push_back(by_pose(product, s.axes));
+    s.joint_U.push_back(by_pose(product, s.table));
   }
 }
 
@@ -192,8 +200,8 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
   WhitenedFit out;
   out.cell = &cell;
   out.measured = &measured;
-  out.axes = static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
   deal(measured, fit, held, out);
+  out.table = lines_of_poses(out);
   const Rows3 sigma_m = stated_sigma(cell, measured);
   double sum = 0.0;
   for (int row : out.row)

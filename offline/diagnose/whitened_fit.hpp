@@ -8,6 +8,7 @@
 #include "cell/measurements.hpp"
 #include "fit/calibration.hpp"
 #include "plumb/runtime/detail/effect.hpp"
+#include "solve/line_table.hpp"
 #include "solve/orthonormal.hpp"
 
 namespace plumb::offline {
@@ -25,12 +26,12 @@ struct Segment {
   Eigen::Index size() const { return end - begin; }
 };
 
-/// Lower triangular factor of the covariance of one pose, shape (axes, axes).
-using PoseRoot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+/// Lower triangular factor of the covariance of the lines of one pose.
+using PoseRoot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 /// A fitted model as a diagnosis looks at it: its whitened residuals, orthogonal to the columns of
 /// its own parameters. Rows are sorted by fold; every whitened coordinate is one line, pose by
-/// pose. Memory: about (axes * parameters + 300) numbers a pose.
+/// pose. Memory: about (lines of a pose * parameters + 300) numbers a pose.
 struct WhitenedFit {
   const Cell* cell = nullptr;
   const Measurements* measured = nullptr;
@@ -40,8 +41,8 @@ struct WhitenedFit {
   /// Errors of the poses that the others contradict [m]: no model was fitted to them, so with folds
   /// they count as held out. What a missing effect changes of them is little beside them.
   std::vector<double> contradicted_m;
-  int axes = 3;                // measured ones
-  Eigen::Index fit_lines = 0;  // axes * fit poses
+  LineTable table;             // of all poses
+  Eigen::Index fit_lines = 0;  // of the fit poses
   Eigen::Index rank = 0;       // of the model's own columns
   NoiseScale noise;
   double sigma_m = 0.0;  // typical 1 sigma of a coordinate
@@ -95,7 +96,7 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
 /// Computes joint_square, joint_y and joint_U again.
 void fold_joints(WhitenedFit& whitened);
 
-/// Lines of one pose, shape (axes,): a displacement [m] of the measured coordinates in standard
+/// Lines of one pose: a displacement [m] of the measured coordinates in standard
 /// deviations, and back.
 void whiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
 void unwhiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);

@@ -23,7 +23,7 @@ struct Whitened {
   Eigen::VectorXd residual;            // (lines,)
   Eigen::MatrixXd model;               // (lines, rank) the model's columns, orthonormal
   std::vector<Eigen::VectorXd> joint;  // (lines,)
-  Eigen::MatrixXd unit;                // (lines, axes) the whitened unit vectors of each pose
+  Eigen::MatrixXd unit;                // (lines, most of a pose) its whitened unit vectors
 };
 
 constexpr int kMostAxes = 6;
@@ -31,9 +31,9 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostAxe
 
 /// Cholesky factor L of the covariance L L^T of the lines of one pose. L^-1 whitens them.
 Square root_at(const ScatterLines& s, const JointScatter& at, Eigen::Index pose) {
-  Square V = at.noise_variance * Square::Identity(s.axes, s.axes);
+  Square V = at.noise_variance * Square::Identity(s.table.count(pose), s.table.count(pose));
   for (std::size_t j = 0; j < s.joint.size(); ++j) {
-    const auto g = s.joint[j].segment(pose * s.axes, s.axes);
+    const auto g = s.joint[j].segment(s.table.begin(pose), s.table.count(pose));
     const double variance = at.variance(static_cast<Eigen::Index>(j));
     if (variance > 0.0) V.noalias() += variance * g * g.transpose();
   }
@@ -52,15 +52,16 @@ void divide(const Square& root, Lines&& lines) {
 double ln_det(const Square& root) { return 2.0 * root.diagonal().array().log().sum(); }
 
 Whitened whitened_by(const ScatterLines& s, const JointScatter& at) {
-  Whitened out{s.y, s.U, s.joint,
-               Eigen::MatrixXd::Identity(s.axes, s.axes).replicate(s.poses(), 1)};
+  Whitened out{s.y, s.U, s.joint, Eigen::MatrixXd::Zero(s.table.lines(), s.table.most())};
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
     const Square root = root_at(s, at, i);
-    const Eigen::Index line = i * s.axes;
-    divide(root, out.residual.segment(line, s.axes));
-    divide(root, out.model.middleRows(line, s.axes));
-    for (auto& motion : out.joint) divide(root, motion.segment(line, s.axes));
-    divide(root, out.unit.middleRows(line, s.axes));
+    const Eigen::Index line = s.table.begin(i), lines = s.table.count(i);
+    divide(root, out.residual.segment(line, lines));
+    divide(root, out.model.middleRows(line, lines));
+    for (auto& motion : out.joint) divide(root, motion.segment(line, lines));
+    auto unit = out.unit.middleRows(line, lines);
+    unit.leftCols(lines).setIdentity();
+    divide(root, unit);
   }
   Eigen::MatrixXd information = gram_matrix(out.model);
   information.diagonal().array() *= 1.0 + kScatterRidge;
@@ -78,10 +79,10 @@ struct VariancePart {
     trace += g.squaredNorm();
     Eigen::VectorXd in_model(w.model.cols());
     for (Eigen::Index i = 0; i < s.poses(); ++i) {
-      const auto gi = g.segment(i * s.axes, s.axes);
-      in_model.noalias() = w.model.middleRows(i * s.axes, s.axes).transpose() * gi;
+      const auto gi = g.segment(s.table.begin(i), s.table.count(i));
+      in_model.noalias() = w.model.middleRows(s.table.begin(i), s.table.count(i)).transpose() * gi;
       trace -= in_model.squaredNorm();
-      const double along = gi.dot(w.residual.segment(i * s.axes, s.axes));
+      const double along = gi.dot(w.residual.segment(s.table.begin(i), s.table.count(i)));
       squares += along * along;
     }
   }
@@ -98,11 +99,12 @@ double contribution(const ScatterLines& s, const JointScatter& at, std::size_t j
 /// The lines of at most `most` poses, picked evenly.
 ScatterLines thinned(const ScatterLines& s, Eigen::Index most) {
   if (s.poses() <= most) return s;
-  std::vector<Eigen::Index> line;
+  std::vector<Eigen::Index> pose;
   for (Eigen::Index i = 0; i < s.poses(); ++i)
-    if (is_among(i, s.poses(), most))
-      for (int k = 0; k < s.axes; ++k) line.push_back(i * s.axes + k);
-  ScatterLines out{s.y(line), s.U(line, Eigen::all), {}, s.axes, s.noise_variance, s.noise_dof};
+    if (is_among(i, s.poses(), most)) pose.push_back(i);
+  const std::vector<Eigen::Index> line = s.table.lines_of(pose);
+  ScatterLines out{s.y(line),  s.U(line, Eigen::all), {}, s.table.picked(pose), s.noise_variance,
+                   s.noise_dof};
   for (const auto& motion : s.joint) out.joint.emplace_back(motion(line));
   return out;
 }
@@ -119,8 +121,8 @@ void ScatterSums::add(const ScatterLines& s, const JointScatter& at) {
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
     const Square root = root_at(s, at, i);
     ln_determinants += ln_det(root);
-    divide(root, y.segment(i * s.axes, s.axes));
-    divide(root, U.middleRows(i * s.axes, s.axes));
+    divide(root, y.segment(s.table.begin(i), s.table.count(i)));
+    divide(root, U.middleRows(s.table.begin(i), s.table.count(i)));
   }
   information += gram_matrix(U);
   gradient.noalias() += U.transpose() * y;
@@ -166,7 +168,7 @@ JointScatter estimated_scatter(const ScatterLines& s, const JointScatter& start,
     }
     VariancePart share{s.noise_dof / out.noise_variance,
                        s.noise_dof * s.noise_variance / (out.noise_variance * out.noise_variance)};
-    for (int k = 0; k < s.axes; ++k) share.add(s, w, w.unit.col(k));
+    for (Eigen::Index k = 0; k < s.table.most(); ++k) share.add(s, w, w.unit.col(k));
     const double factor = share.factor();
     out.noise_variance = std::max(kSmallestNoise, out.noise_variance * factor);
     if (std::max(change, std::abs(factor - 1.0)) < kScatterSettled) break;

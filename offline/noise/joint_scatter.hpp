@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "solve/line_table.hpp"
+
 namespace plumb::offline {
 
-/// Lines of a linear model y = U b + noise + scatter, pose by pose, `axes` lines a pose, all
+/// Lines of a linear model y = U b + noise + scatter, pose by pose, all
 /// divided by the stated sigma of the reading.
 ///
 /// The scatter of a joint is a random angle (or shift) that is another one at every stop. It moves
@@ -16,11 +18,11 @@ struct ScatterLines {
   Eigen::VectorXd y;                   // (lines,)
   Eigen::MatrixXd U;                   // (lines, rank) columns of the model, independent
   std::vector<Eigen::VectorXd> joint;  // (lines,) motion per rad or m of each joint
-  int axes = 3;
-  double noise_variance = 1.0;  // prior of the variance of a line
-  double noise_dof = 0.0;       // degrees of freedom of that prior; 0: there is none
+  LineTable table;                     // of the poses
+  double noise_variance = 1.0;         // prior of the variance of a line
+  double noise_dof = 0.0;              // degrees of freedom of that prior; 0: there is none
 
-  Eigen::Index poses() const { return axes == 0 ? 0 : y.size() / axes; }
+  Eigen::Index poses() const { return table.readings(); }
 };
 
 /// Variances of one model of the noise.

@@ -65,10 +65,7 @@ class ModelLines {
     for (const std::size_t i : chosen) data_.rows.push_back(rows_[i]);
     Solution model = evaluate(data_, state_, fitted_);
     const Solution joints = evaluate(data_, state_, offsets_);
-    ScatterLines out{std::move(model.residual),
-                     std::move(model.jacobian),
-                     {},
-                     data_.lines_of(data_.rows.front())};
+    ScatterLines out{std::move(model.residual), std::move(model.jacobian), {}, data_.line_table()};
     for (const auto motion : joints.jacobian.colwise()) out.joint.emplace_back(motion);
     return out;
   }
@@ -233,18 +230,23 @@ std::vector<int> stops(const Measurements& measured, const std::vector<int>& row
 
 ScatterLines by_stop(const ScatterLines& s, const std::vector<int>& stops) {
   if (stops.empty()) return s;
-  const Eigen::Index count = stops.back() + 1;
-  std::vector<double> readings(static_cast<std::size_t>(count), 0.0);
-  for (const int stop : stops) readings[static_cast<std::size_t>(stop)] += 1.0;
+  std::vector<double> readings(static_cast<std::size_t>(stops.back() + 1), 0.0);
+  std::vector<Eigen::Index> first;  // reading of each stop
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    if (readings[static_cast<std::size_t>(stops[i])] == 0.0)
+      first.push_back(static_cast<Eigen::Index>(i));
+    readings[static_cast<std::size_t>(stops[i])] += 1.0;
+  }
+  const LineTable table = s.table.picked(first);
   const auto added = [&](const Eigen::MatrixXd& lines) {
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count * s.axes, lines.cols());
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(table.lines(), lines.cols());
     for (std::size_t i = 0; i < stops.size(); ++i)
-      out.middleRows(stops[i] * s.axes, s.axes) +=
-          lines.middleRows(static_cast<Eigen::Index>(i) * s.axes, s.axes) /
+      out.middleRows(table.begin(stops[i]), table.count(stops[i])) +=
+          lines.middleRows(s.table.begin(static_cast<Eigen::Index>(i)), table.count(stops[i])) /
           std::sqrt(readings[static_cast<std::size_t>(stops[i])]);
     return out;
   };
-  ScatterLines out{added(s.y), added(s.U), {}, s.axes, s.noise_variance, s.noise_dof};
+  ScatterLines out{added(s.y), added(s.U), {}, table, s.noise_variance, s.noise_dof};
   for (const auto& motion : s.joint) out.joint.emplace_back(added(motion));
   return out;
 }

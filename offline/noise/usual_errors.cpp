@@ -10,7 +10,7 @@
 #include "solve/outliers.hpp"
 
 namespace plumb::offline {
-StandingOut standing_out(const std::vector<double>& errors_m, int axes, double sigma_m) {
+StandingOut standing_out(const std::vector<double>& errors_m, Eigen::Index axes, double sigma_m) {
   const double sigma = std::max(sigma_m, kSmallestSigma_m);
   const Eigen::Map<const Eigen::VectorXd> errors(errors_m.data(),
                                                  static_cast<Eigen::Index>(errors_m.size()));
@@ -27,7 +27,7 @@ bool are_single(std::size_t standing_out, std::size_t n) {
   return static_cast<double>(standing_out) <= kMostSingle * static_cast<double>(n);
 }
 
-ErrorStats usual_errors(std::vector<double> errors_m, int axes, double sigma_m) {
+ErrorStats usual_errors(std::vector<double> errors_m, Eigen::Index axes, double sigma_m) {
   auto which = standing_out(errors_m, axes, sigma_m).which;
   if (!are_single(which.size(), errors_m.size())) which.clear();
   for (auto at = which.rbegin(); at != which.rend(); ++at)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "noise/error_stats.hpp"
@@ -16,13 +17,13 @@ struct StandingOut {
 
 /// @param errors_m  3-D errors of readings with `axes` measured axes.
 /// @param sigma_m   Noise of one axis: a lower bound of the usual scatter.
-StandingOut standing_out(const std::vector<double>& errors_m, int axes, double sigma_m);
+StandingOut standing_out(const std::vector<double>& errors_m, Eigen::Index axes, double sigma_m);
 
 /// Whether `standing_out` of n readings are few enough, at most one in seven, to be single bad
 /// readings, which no headline counts.
 bool are_single(std::size_t standing_out, std::size_t n);
 
 /// Summary of the errors without those that stand out, if these are few enough for that.
-ErrorStats usual_errors(std::vector<double> errors_m, int axes, double sigma_m);
+ErrorStats usual_errors(std::vector<double> errors_m, Eigen::Index axes, double sigma_m);
 
 }  // namespace plumb::offline

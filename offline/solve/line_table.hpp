@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace plumb::offline {
@@ -19,6 +18,7 @@ class LineTable {
   explicit LineTable(const std::vector<int>& counts) {
     begin_.reserve(counts.size() + 1);
     for (const int count : counts) {
+      reading_.insert(reading_.end(), static_cast<std::size_t>(count), readings());
       begin_.push_back(begin_.back() + count);
       most_ = std::max<Eigen::Index>(most_, count);
     }
@@ -41,8 +41,24 @@ class LineTable {
     return begin(last) - begin(first);
   }
 
+  /// The reading to which a line belongs.
+  Eigen::Index reading(Eigen::Index line) const { return reading_[static_cast<std::size_t>(line)]; }
+
+  /// The table of some readings, in this order, and their lines.
+  LineTable picked(const std::vector<Eigen::Index>& some) const {
+    std::vector<int> counts;
+    for (const Eigen::Index i : some) counts.push_back(static_cast<int>(count(i)));
+    return LineTable(counts);
+  }
+  std::vector<Eigen::Index> lines_of(const std::vector<Eigen::Index>& some) const {
+    std::vector<Eigen::Index> out;
+    for (const Eigen::Index i : some)
+      for (Eigen::Index line = begin(i); line < begin(i + 1); ++line) out.push_back(line);
+    return out;
+  }
+
  private:
-  std::vector<Eigen::Index> begin_{0};
+  std::vector<Eigen::Index> begin_{0}, reading_;
   Eigen::Index most_ = 0;
 };
 

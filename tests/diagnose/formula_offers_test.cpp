@@ -180,7 +180,7 @@ TEST(FormulaChoices, TakeNothingThatAFoldContradicts) {
       choose_formulas(Scorer(leaving(s, noise_of(s, 1) + motion)), of_joint_5(terms), terms)
           .empty());
   const Segment& fold = s.folds[1];
-  motion.segment(fold.begin * s.axes, fold.size() * s.axes) *= -1.0;
+  motion.segment(s.table.begin(fold.begin), s.table.count(fold.begin, fold.end)) *= -1.0;
   EXPECT_TRUE(choose_formulas(Scorer(leaving(s, noise_of(s, 1) + motion)), of_joint_5(terms), terms)
                   .empty());
 }

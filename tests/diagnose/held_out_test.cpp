@@ -30,11 +30,11 @@ TEST_F(HeldOut, WithoutACandidateIsWhatTheModelLeavesAtThePosesItNeverSaw) {
   const WhitenedFit s = leaving(arm, noise);
   std::vector<double> norms;
   for (Eigen::Index i = s.held.begin; i < s.held.end; ++i) {
-    Eigen::VectorXd lines = s.y.segment(i * s.axes, s.axes);
+    Eigen::VectorXd lines = s.y.segment(s.table.begin(i), s.table.count(i));
     unwhiten(s, i, lines);
     norms.push_back(lines.norm());
   }
-  const ErrorStats expected = usual_errors(norms, s.axes, s.sigma_m);
+  const ErrorStats expected = usual_errors(norms, s.table.most(), s.sigma_m);
   const ErrorStats found = held_out_error(Scorer(s));
   EXPECT_EQ(found.n, expected.n);
   EXPECT_NEAR(found.rms, expected.rms, 1e-12 * expected.rms);

@@ -62,7 +62,7 @@ Eigen::MatrixXd covariance(const WhitenedFit& s, const JointScatter& scatter) {
   Eigen::MatrixXd out = scatter.noise_variance * Eigen::MatrixXd::Identity(lines, lines);
   for (Eigen::Index a = 0; a < lines; ++a)
     for (Eigen::Index b = 0; b < lines; ++b)
-      for (int j = 0; j < s.joints() && a / s.axes == b / s.axes; ++j)
+      for (int j = 0; j < s.joints() && s.table.reading(a) == s.table.reading(b); ++j)
         out(a, b) += scatter.variance(j) * s.joint[j](a) * s.joint[j](b);
   return out;
 }
@@ -120,11 +120,11 @@ TEST(ScatteredFit, WhitensThePartsOfOnePoseAlike) {
   const WhitenedFit& s = whitened_arm().whitened;
   const WhitenedFit there = with_scatter(s, some_scatter(s));
   for (const Eigen::Index pose : {Eigen::Index{0}, Eigen::Index{40}, s.poses() - 1}) {
-    Eigen::VectorXd lines = s.tool.col(1).segment(pose * s.axes, s.axes);
+    Eigen::VectorXd lines = s.tool.col(1).segment(s.table.begin(pose), s.table.count(pose));
     unwhiten(s, pose, lines);
     const Eigen::VectorXd motion_m = lines;
     whiten(there, pose, lines);
-    EXPECT_LT((lines - there.tool.col(1).segment(pose * s.axes, s.axes)).norm(),
+    EXPECT_LT((lines - there.tool.col(1).segment(s.table.begin(pose), s.table.count(pose))).norm(),
               1e-9 * lines.norm());
     unwhiten(there, pose, lines);
     EXPECT_LT((lines - motion_m).norm(), 1e-9 * motion_m.norm());
@@ -143,9 +143,9 @@ TEST(ScatteredFit, ReadingsOfOneStopAreOnePoseOfTheirMean) {
     int count = 0;
     for (const int row : s.row)
       count += (m.q.row(row) - m.q.row(there.row[i])).norm() == 0.0 ? 1 : 0;
-    for (int k = 0; k < s.axes; ++k) {
+    for (Eigen::Index k = 0; k < s.table.count(pose); ++k) {
       const auto of = [&](const WhitenedFit& fit, Eigen::Index pose) {
-        return fit.sigma[static_cast<std::size_t>(pose * s.axes + k)];
+        return fit.sigma[static_cast<std::size_t>(s.table.begin(pose) + k)];
       };
       EXPECT_NEAR(of(there, i) * std::sqrt(count), of(s, 0), 1e-12) << i;
     }

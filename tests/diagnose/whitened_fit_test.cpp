@@ -191,7 +191,7 @@ TEST_F(Whitened, AnAxisThatWasNotMeasuredHasNoLines) {
   flat.has_axis[1] = false;
   const WhitenedFit two =
       make_whitened_fit(made().blind.cell, flat, made().calibration, made().fit, made().held);
-  EXPECT_EQ(two.axes, 2);
+  EXPECT_EQ(two.table.most(), 2);
   ASSERT_EQ(two.row, s.row);
   for (Eigen::Index i = 0; i < s.poses(); i += 7) {
     EXPECT_NEAR(two.joint[2](2 * i), s.joint[2](3 * i), 1e-12 * std::abs(s.joint[2](3 * i)));

@@ -20,6 +20,7 @@ ScatterLines lines_with(int poses, double first, double second, std::uint64_t se
   Random random(seed);
   ScatterLines out;
   out.noise_dof = 4.0;
+  out.table = LineTable(std::vector<int>(static_cast<std::size_t>(poses), 3));
   out.y.resize(3 * poses);
   out.U.resize(3 * poses, 3);
   out.joint.assign(2, Eigen::VectorXd(3 * poses));
@@ -89,6 +90,7 @@ TEST(JointScatter, PartsOfTheLinesAddUpToTheSameLikelihood) {
   ScatterSums white, scattered;
   for (Eigen::Index first = 0; first < 900; first += 90) {
     ScatterLines part = lines;
+    part.table = LineTable(std::vector<int>(30, 3));
     part.y = lines.y.segment(first, 90);
     part.U = lines.U.middleRows(first, 90);
     for (std::size_t j = 0; j < 2; ++j) part.joint[j] = lines.joint[j].segment(first, 90);
