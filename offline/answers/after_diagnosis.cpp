@@ -32,8 +32,7 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
   const Finding finding = d.finding_after.value_or(d.finding);
   if (finding == Finding::kMissing) {
     const Candidate& first = d.candidates.front();
-    if (!falls(d.before.mean, first.alone.mean))
-      return {good_enough(cell, d.before) ? kCompile : kMeasure};
+    if (!helps(d, first)) return {good_enough(cell, d.before) ? kCompile : kMeasure};
     std::vector<double> rows;
     for (const Move& move : first.moves) rows.push_back(move.after_row);
     std::vector<std::string> out{

@@ -30,6 +30,7 @@ void describe(Fields& fields, typename Fields::template Of<Candidate>& candidate
   fields("gain", candidate.gain);
   fields("gain_se", candidate.gain_se);
   fields("alone", candidate.alone);
+  fields("alone_turns", candidate.alone_turns);
   fields("after", candidate.after);
   fields("cycles", candidate.cycles);
   fields("peaks", candidate.peaks);
@@ -106,6 +107,13 @@ void describe(Fields& fields, typename Fields::template Of<FormulaOffer>& offer)
 }
 
 template <class Fields>
+void describe(Fields& fields, typename Fields::template Of<FoundTurns>& turns) {
+  fields("floor", turns.floor);
+  fields("before", turns.before);
+  fields("after", turns.after);
+}
+
+template <class Fields>
 void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("finding", found.finding);
   fields("text", found.text);
@@ -121,6 +129,7 @@ void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
   fields("folds", found.folds);
   fields("before", found.before);
   fields("after", found.after);
+  fields("turns", found.turns);
   fields("tied", found.tied);
   fields("gravity", found.gravity);
   fields("slow_motion", found.slow_motion);
@@ -133,7 +142,7 @@ void describe(Fields& fields, typename Fields::template Of<Diagnosis>& found) {
 
 namespace {
 
-constexpr const char* kSchema = "diagnosis/5";
+constexpr const char* kSchema = "diagnosis/6";
 
 std::filesystem::path kept_file(const Run& run) { return run.directory / "diagnosis.json"; }
 

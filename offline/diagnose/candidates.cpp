@@ -90,7 +90,7 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
     unwhiten(s, i, moved.segment(s.table.begin(i), s.table.count(i)));
   double out = 0.0;
   for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
-    out = std::max(out, moved.segment(s.table.begin(i), s.table.count(i)).norm());
+    out = std::max(out, moved(s.point_lines(i)).norm());
   return out;
 }
 
@@ -153,7 +153,9 @@ void add_alone(const WhitenedFit& plain, const Scorer& scorer, const Found& foun
   const Gain gain = held_out_gain(scorer, folds);
   out.gain = gain.share;
   out.gain_se = gain.share_se;
-  out.alone = held_out_error(scorer, regressor, scored, folds);
+  const HeldOutError held = held_out_error(scorer, regressor, scored, folds);
+  out.alone = held.points;
+  out.alone_turns = held.turns;
 }
 
 /// RMS over the fit poses of the fitted motion of the joint that a pattern belongs to; 0 if the
@@ -216,7 +218,8 @@ void add_after(const WhitenedFit& plain, const Scorer& alone,
     const Regressor regressor = regressor_of(next, *found[i]);
     const RegressorScore scored = score_of(scorer, *found[i], regressor);
     out[i].after = held_out_error(scorer, regressor, scored,
-                                  in_folds(scorer, *found[i], regressor, scored, regressors));
+                                  in_folds(scorer, *found[i], regressor, scored, regressors))
+                       .points;
   }
 }
 

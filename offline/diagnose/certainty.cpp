@@ -24,7 +24,7 @@ const Candidate* near_rival_of_key(const Cell& cell, const Diagnosis& d, const s
 /// Of a diagnosis that ends with a first candidate which is not in the model.
 Certainty of_candidate(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
-  if (!falls(d.before.mean, best.alone.mean) || d.refused) return Certainty::kDoubtful;
+  if (!helps(d, best) || d.refused) return Certainty::kDoubtful;
   if (d.tied || may_be_another(d) || near_rival(cell, d) != nullptr) return Certainty::kAOrB;
   if (d.gravity && !d.gravity->certain) return Certainty::kAOrB;
   return explains_little(d) || !best.plausible || nats_ahead(cell, d) < kCertain_nats
@@ -80,6 +80,16 @@ Certainty certainty(const Cell& cell, const Diagnosis& d) {
 
 bool falls(double before_m, double after_m) {
   return digits_mm(after_m) != digits_mm(before_m) && after_m < before_m;
+}
+
+bool helps(const Diagnosis& d, const Candidate& c) {
+  if (falls(d.before.mean, c.alone.mean)) return true;
+  return d.turns && c.alone_turns.n > 0 && c.alone_turns.mean < kTurnsFall * d.turns->before.mean &&
+         c.alone.mean <= kMostRise * d.before.mean;
+}
+
+bool turned(const Diagnosis& d) {
+  return d.turns && d.turns->excess && d.turns->excess->lack_of_fit();
 }
 
 bool explains_little(const Diagnosis& d) {

@@ -42,4 +42,11 @@ double nats_ahead(const Cell& cell, const Diagnosis& diagnosis);
 /// not in the model, its remains look like small effects, and evidence for these may deceive.
 bool explains_little(const Diagnosis& diagnosis);
 
+/// Whether the held-out error falls with a candidate alone: that of the points, or clearly that of
+/// measured orientations while the points keep theirs.
+bool helps(const Diagnosis& diagnosis, const Candidate& candidate);
+
+/// Whether the orientations are clearly above their noise floor: something turns the tool.
+bool turned(const Diagnosis& diagnosis);
+
 }  // namespace plumb::offline

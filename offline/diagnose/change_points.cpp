@@ -316,7 +316,7 @@ std::vector<Move> sized_moves(const WhitenedFit& s, const Regressor& regressor,
     for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
       if (!(s.context[static_cast<std::size_t>(i)].order > move.after_row - 0.5)) continue;
       unwhiten(s, i, moved.segment(s.table.begin(i), s.table.count(i)));
-      sum += moved.segment(s.table.begin(i), s.table.count(i)).squaredNorm();
+      sum += moved(s.point_lines(i)).squaredNorm();
       ++behind;
     }
     move.size_m = std::sqrt(sum / std::max(1, behind));

@@ -69,6 +69,9 @@ inline constexpr double kRealShare = 0.005;
 inline constexpr double kLittleShare = 0.1;
 /// An error of more than so many noise floors is mostly due to something else. outside.
 inline constexpr double kFarAboveFloor = 3.0;
+/// The error of orientations on unseen poses falls clearly if less than this share of it is left.
+/// chosen.
+inline constexpr double kTurnsFall = 0.95;
 /// The error on unseen poses may end so much above its smallest value along the steps. outside.
 inline constexpr double kMostRise = 1.05;
 /// A single step may not raise it beyond this. outside.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cell/effects_edit.hpp"
@@ -9,6 +10,7 @@
 #include "check/data_sense.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/candidates.hpp"
+#include "diagnose/certainty.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/diagnosis.hpp"
@@ -116,6 +118,15 @@ std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOutPred
                                            fitted.decided + fitted.series_dof));
 }
 
+/// The orientations at the end, where the fit uses them.
+void judge_turns(const Work& w, const HeldOutPredictions& held, const Calibration& fitted,
+                 FoundTurns& out) {
+  out.after = held.turn_stats();
+  out.excess = held_out_excess(out.after.mean, out.floor,
+                               unavoidable_ratio(fitted_coordinates(w.measured, w.split),
+                                                 fitted.decided + fitted.series_dof));
+}
+
 /// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.
 constexpr const char* kSteps[] = {"calibrating", "trying every effect", "held-out errors",
                                   "adding effects"};
@@ -165,34 +176,40 @@ void say_what_was_not_judged(const ForwardSelection& found, Diagnosis& out) {
 /// How many of the steps are kept. They were selected by the fitted readings; the held-out readings
 /// can only refuse them: where the held-out error leaps, or ends clearly above its minimum, the
 /// steps after the minimum are dropped.
-std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
+///
+/// @param before, errors  As `counted_m`: at the start, and after each step.
+std::size_t steps_kept(double before, const std::vector<double>& errors) {
   // The error may rise for a while, until later effects bring it down again.
-  const auto is_less = [](const Addition& a, const Addition& b) {
-    return a.held.mean < b.held.mean;
-  };
-  if (added.empty() ||
-      added.back().held.mean <=
-          std::min(before_m,
-                   kMostRise * std::min_element(added.begin(), added.end(), is_less)->held.mean))
-    return added.size();
-  double least = before_m;
+  if (errors.empty() ||
+      errors.back() <=
+          std::min(before, kMostRise * *std::min_element(errors.begin(), errors.end())))
+    return errors.size();
+  double least = before;
   std::size_t kept = 0, seen = 0;
-  while (seen < added.size() && added[seen].held.mean <= kLeap * least) {
-    if (added[seen].held.mean < least) {
-      least = added[seen].held.mean;
+  while (seen < errors.size() && errors[seen] <= kLeap * least) {
+    if (errors[seen] < least) {
+      least = errors[seen];
       kept = seen + 1;
     }
     ++seen;
   }
-  const bool sound =
-      seen == added.size() && (added.empty() || added.back().held.mean <= kMostRise * least);
-  return sound ? added.size() : kept;
+  const bool sound = seen == errors.size() && errors.back() <= kMostRise * least;
+  return sound ? errors.size() : kept;
+}
+
+/// An error of points [m] and of orientations [rad] as one: the latter in their noise floors.
+double counted_m(const Diagnosis& d, double points_m, double turns_rad) {
+  if (!d.turns || !(d.floor.mean_m > 0.0) || !(d.turns->floor.mean_rad > 0.0)) return points_m;
+  return std::hypot(points_m, turns_rad * d.floor.mean_m / d.turns->floor.mean_rad);
 }
 
 /// Whether the selection, repeated without each fold, raises the held-out error: its mean, or by
 /// single large errors its RMS.
-bool rises_over(const ErrorStats& before, const ErrorStats& after) {
-  return after.mean > before.mean || after.rms > before.rms;
+bool rises_over(const Diagnosis& d, const HeldOutPredictions& held, const BadRows& bad) {
+  const ErrorStats after = held.stats(bad), turns = held.turn_stats();
+  const ErrorStats before = d.turns ? d.turns->before : ErrorStats{};
+  return counted_m(d, after.mean, turns.mean) > counted_m(d, d.before.mean, before.mean) ||
+         counted_m(d, after.rms, turns.rms) > counted_m(d, d.before.rms, before.rms);
 }
 
 void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, std::size_t kept,
@@ -222,8 +239,10 @@ void take_over_first(Diagnosis& out) {
   Candidate& first = out.candidates.front();
   const Addition& added = out.added.front();
   if (same_effect(first.entry, added.entry) && first.cycles == added.cycles &&
-      first.moves.size() == added.moves.size())
+      first.moves.size() == added.moves.size()) {
     first.alone = first.after = added.held;
+    first.alone_turns = added.turns;
+  }
 }
 
 /// Formulas for structure that this model leaves.
@@ -248,12 +267,16 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
     out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
                          held_by_step.back().stats(w.bad), step.alternatives, step.moves,
-                         step.sizes});
+                         held_by_step.back().turn_stats(), step.sizes});
   }
   std::optional<HeldOutPredictions> nested;
   if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
-  const bool rises = nested && rises_over(out.before, nested->stats(w.bad));
-  const std::size_t kept = rises ? 0 : steps_kept(out.before.mean, out.added);
+  const bool rises = nested && rises_over(out, *nested, w.bad);
+  std::vector<double> errors;
+  for (const Addition& one : out.added)
+    errors.push_back(counted_m(out, one.held.mean, one.turns.mean));
+  const double before_m = counted_m(out, out.before.mean, out.turns ? out.turns->before.mean : 0.0);
+  const std::size_t kept = rises ? 0 : steps_kept(before_m, errors);
   const bool refused = kept < out.added.size();
   // Where only what was found beside an undecided finding is refused, that finding is left.
   const bool undecided_is_left = refused && found.at_first && kept >= found.at_first->steps;
@@ -277,6 +300,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
       out.added[i].moves = found.steps[i].moves;
     }
     out.added.back().held = held_by_step.back().stats(w.bad);
+    out.added.back().turns = held_by_step.back().turn_stats();
   }
   std::optional<HeldOutPredictions> held;
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
@@ -307,14 +331,15 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   }
   if (held) {
     out.after = held->stats(w.bad);
-    out.held_out_excess = held_out_excess_of(
-        w, *held, found.steps.empty() ? base : found.steps.back().calibration, out.floor);
+    const Calibration& fitted = found.steps.empty() ? base : found.steps.back().calibration;
+    out.held_out_excess = held_out_excess_of(w, *held, fitted, out.floor);
+    if (out.turns) judge_turns(w, *held, fitted, *out.turns);
   }
   out.unknown_after = found.unknown;
 }
 
 bool far_above_the_noise(const Diagnosis& d) {
-  return d.held_out_excess && d.held_out_excess->lack_of_fit();
+  return (d.held_out_excess && d.held_out_excess->lack_of_fit()) || turned(d);
 }
 
 /// The facts after the effects were added: supported laws are now in the model, so of these only
@@ -414,6 +439,10 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   w.bad.rows = held.bad_rows(w.bad.sigma_m);
   out.before = out.after = held.stats(w.bad);
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
+  if (const OrientationFloor floor = orientation_floor(w.cell, measured); floor.known()) {
+    out.turns = FoundTurns{floor, held.turn_stats(), {}, {}};
+    judge_turns(w, held, present, *out.turns);
+  }
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);
   if (request.apply && !wrong_gravity) go_all_the_way(w, base, whitened, first, present, held, out);

@@ -17,6 +17,7 @@
 #include "fit/held_out_excess.hpp"
 #include "noise/error_stats.hpp"
 #include "noise/noise_floor.hpp"
+#include "noise/orientation_floor.hpp"
 #include "noise/repeatability.hpp"
 
 namespace plumb::offline {
@@ -37,6 +38,7 @@ struct Candidate {
   double ln_bayes = 0.0;
   double gain = 0.0, gain_se = 0.0;  // share of the RMS, K-fold inside the fit poses
   ErrorStats alone;                  // held out, with this effect
+  ErrorStats alone_turns = {};       // of orientations [rad]; n = 0 where none are fitted
   ErrorStats after;                  // with the best one and this one
   std::vector<double> cycles;
   std::string peaks = {};        // of a series of waves: its largest ones in words
@@ -88,6 +90,7 @@ struct Addition {
   ErrorStats held;
   std::vector<Alternative> alternatives;  // what it may be instead; all of its fate
   std::vector<Move> moves = {};           // of a part that moved several times
+  ErrorStats turns = {};                  // held out, of orientations [rad]
   std::string sizes = {};                 // of a series of all joints: the error of each in words
 };
 
@@ -111,6 +114,13 @@ struct Undecided {
       {};  // as in Diagnosis; then there are no alternatives
 };
 
+/// What a diagnosis finds of measured orientations, where the fit uses them.
+struct FoundTurns {
+  OrientationFloor floor;
+  ErrorStats before, after;             // held out [rad]
+  std::optional<HeldOutExcess> excess;  // at the end
+};
+
 struct Diagnosis {
   Finding finding = Finding::kComplete;
   std::optional<Finding> finding_after;  // with `apply`
@@ -122,6 +132,7 @@ struct Diagnosis {
   bool nested = false;     // held-out figures come from folds around the whole diagnosis
   int folds = 0;           // of the held-out figures; 0: one held-out set
   ErrorStats before, after;
+  std::optional<FoundTurns> turns;
   std::vector<Addition> added;
   std::optional<EffectEntry> tied;  // explains these poses exactly as well as the first candidate
   /// What the first candidate may be instead: within 10 nats of it, and mutually confounded with

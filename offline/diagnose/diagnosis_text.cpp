@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
@@ -27,6 +28,24 @@ namespace {
 constexpr std::size_t kAlternativesShown = 3;
 
 std::string mm(double metres) { return digits_mm(metres) + " mm"; }
+
+std::string degrees_text(double rad) {
+  return fmt::format("{:.4f} deg", rad * 180.0 / std::numbers::pi);
+}
+
+/// "orientations miss by 0.0110 deg, 6.0 times their noise floor 0.0018 deg"
+std::string turned_words(const FoundTurns& turns) {
+  return fmt::format("orientations miss by {}, {:.1f} times their noise floor {}",
+                     degrees_text(turns.after.mean), turns.excess->times,
+                     degrees_text(turns.floor.mean_rad));
+}
+
+/// ", orientations 0.0110 deg -> 0.0020 deg"; empty where none are fitted.
+std::string turns_fall(const Diagnosis& d) {
+  if (!d.turns) return {};
+  return fmt::format(", orientations {} -> {}", degrees_text(d.turns->before.mean),
+                     degrees_text(d.turns->after.mean));
+}
 
 /// What the joints scatter, as a sentence of its own; empty: nothing is seen of it.
 std::string repeatability_words(const Cell& cell, const Diagnosis& d) {
@@ -62,6 +81,11 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held, Held said
         "{}; but what is left is {:.1f} times the {}: something that these poses do not name. A "
         "local tree may learn it, or more poses may show it",
         out, d.held_out_excess->times, floor);
+  if (turned(d))
+    return fmt::format(
+        "{}; {}{}; but {}: something turns the tool that these poses do not name; more "
+        "poses may show it",
+        out, error, floor, turned_words(*d.turns));
   if (d.held_out_excess && d.held_out_excess->few_poses())
     return fmt::format(
         "{}; {}{} (so few poses leave up to {:.1f} times that even "
@@ -76,6 +100,16 @@ std::string fall_words(double before_m, double after_m) {
     return fmt::format("{} -> {} on unseen poses", digits_mm(before_m), mm(after_m));
   return fmt::format("the error on unseen poses does not fall ({} -> {})", mm(before_m),
                      mm(after_m));
+}
+
+/// The same of the first candidate. Where orientations alone show it, they are named.
+std::string fall_words(const Diagnosis& d, const Candidate& c) {
+  if (falls(d.before.mean, c.alone.mean) || !helps(d, c))
+    return fall_words(d.before.mean, c.alone.mean);
+  return fmt::format(
+      "the orientation error on unseen poses {:.4f} -> {}, that of positions {} -> {}",
+      d.turns->before.mean * 180.0 / std::numbers::pi, degrees_text(c.alone_turns.mean),
+      digits_mm(d.before.mean), mm(c.alone.mean));
 }
 
 /// ", or a law that these poses cannot show: bending of links (link_flexure:J2) (no mass is
@@ -221,7 +255,7 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
   std::string effect = either_words(cell, effect_sentence(cell, best) + peaks, d.alternatives);
   if (d.slow_motion) effect += ", or " + slow_words(cell, *d.slow_motion);
   if (may_be_another(d)) effect += ": these poses cannot tell";
-  if (!falls(d.before.mean, best.alone.mean))
+  if (!helps(d, best))
     return fmt::format(
         "Doubtful: perhaps {}. The fitted poses speak for it, but {}, {}. More poses would tell.",
         effect, fall_words(d.before.mean, best.alone.mean), floor_words(d.floor));
@@ -238,9 +272,8 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
                      undecidable                                                  ? "Undecidable"
                      : explains_little(d) || part_of_first(d) != PartOf::kNothing ? "Perhaps"
                                                                                   : "Missing",
-                     effect, may_be_another(d) ? "the first" : "it",
-                     fall_words(d.before.mean, best.alone.mean), floor_words(d.floor),
-                     sure_words(cell, d));
+                     effect, may_be_another(d) ? "the first" : "it", fall_words(d, best),
+                     floor_words(d.floor), sure_words(cell, d));
 }
 
 /// Effects that were added, but may be something else.
@@ -309,14 +342,14 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
             "either: {}, {}. To tell them apart, measure {}.",
             effect_sentence(cell, d.candidates.front()), effect_sentence(cell, *d.tied, {}),
             in_words(cell, d.candidates.front()), in_words(cell, *d.tied),
-            fall_words(d.before.mean, d.candidates.front().alone.mean), floor_words(d.floor),
+            fall_words(d, d.candidates.front()), floor_words(d.floor),
             separating_measurement(d.candidates.front().entry, *d.tied));
       if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format(
             "Undecidable: nothing is supported, but without a noise floor nobody "
             "knows whether {} is good: repeat some poses, or state sigma_um.",
             mm(d.before.mean));
-      if (d.held_out_excess && d.held_out_excess->lack_of_fit())
+      if ((d.held_out_excess && d.held_out_excess->lack_of_fit()) || turned(d))
         return "Undecidable: " + complete_words(d, d.before, Held::kSay) + "." +
                repeatability_words(cell, d);
       return fmt::format("Undecidable: {} cannot tell what is missing.",
@@ -358,9 +391,9 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
         gravity_text(d.gravity->stated));
   const std::string fall = d.added.empty()
                                ? "Nothing was added"
-                               : fmt::format("{} added: held-out error {} -> {}",
+                               : fmt::format("{} added: held-out error {} -> {}{}",
                                              counted_words(d.added.size(), "effect", "effects"),
-                                             mm(d.before.mean), mm(d.after.mean));
+                                             mm(d.before.mean), mm(d.after.mean), turns_fall(d));
   switch (*d.finding_after) {
     case Finding::kUnknown:
       return fmt::format("{}{}; {}: {}.", fall, unsure_words(cell, d),

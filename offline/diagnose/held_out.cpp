@@ -1,19 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/held_out.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "noise/usual_errors.hpp"
 
 namespace plumb::offline {
 namespace {
 
-/// 3-D error of each pose of whitened lines.
-void add_norms(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines,
-               std::vector<double>& out) {
+/// Calls visit(whitened lines, lines in m and rad) for each pose.
+template <class Visit>
+void visit_errors(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines,
+                  const Visit& visit) {
   for (Eigen::Index i = 0; i < at.size(); ++i) {
-    Eigen::VectorXd error = lines.segment(s.table.begin(i), s.table.count(i));
+    const Eigen::VectorXd white = lines.segment(s.table.begin(i), s.table.count(i));
+    Eigen::VectorXd error = white;
     unwhiten(s, at.begin + i, error);
-    out.push_back(error.norm());
+    visit(white, error);
   }
+}
+
+/// Errors of each pose: of its point [m] and, where it is measured, of its orientation [rad].
+struct Norms {
+  std::vector<double> points_m, turns_rad;
+
+  void add(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines) {
+    visit_errors(s, at, lines, [&](const Eigen::VectorXd&, const Eigen::VectorXd& error) {
+      points_m.push_back(error.head(s.reading.point_lines()).norm());
+      if (s.turns()) turns_rad.push_back(error.tail(s.reading.turn_lines()).norm());
+    });
+  }
+
+  HeldOutError usual(const WhitenedFit& s) && {
+    HeldOutError out{usual_errors(std::move(points_m), s.reading.point_lines(), s.sigma_m), {}};
+    if (s.turns()) out.turns = summarise(std::move(turns_rad));
+    return out;
+  }
+};
+
+/// Sum of the squared errors of all poses: that of the points [m^2], and each orientation counts as
+/// a point that misses by as many sigmas.
+double squared_error(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines) {
+  double out = 0.0;
+  visit_errors(s, at, lines, [&](const Eigen::VectorXd& white, const Eigen::VectorXd& error) {
+    const double point = error.head(s.reading.point_lines()).norm();
+    out += point * point;
+    if (s.turns()) out += std::pow(s.sigma_m, 2) * white.tail(s.reading.turn_lines()).squaredNorm();
+  });
+  return out;
 }
 
 auto lines_of(const WhitenedFit& s, const Segment& at) {
@@ -38,53 +73,44 @@ Eigen::VectorXd left_in_fold(const Scorer& scorer, std::size_t f,
          motion(s, candidate.regressor[f], fitted.regressor)(at);
 }
 
-double sum_of_squares(const std::vector<double>& norms) {
-  double out = 0.0;
-  for (const double norm : norms) out += norm * norm;
-  return out;
-}
-
 }  // namespace
 
-ErrorStats held_out_error(const Scorer& scorer) {
+HeldOutError held_out_error(const Scorer& scorer) {
   const WhitenedFit& s = scorer.whitened();
-  std::vector<double> norms;
+  Norms norms;
   if (s.held.size() > 0) {
-    add_norms(s, s.held, s.y(lines_of(s, s.held)), norms);
-    return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
+    norms.add(s, s.held, s.y(lines_of(s, s.held)));
+    return std::move(norms).usual(s);
   }
-  norms = s.contradicted_m;
+  norms.points_m = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
-    add_norms(s, s.folds[f], left_in_fold(scorer, f), norms);
-  return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
+    norms.add(s, s.folds[f], left_in_fold(scorer, f));
+  return std::move(norms).usual(s);
 }
 
-ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
-                          const RegressorScore& scored, const CandidateInFolds& in_folds) {
+HeldOutError held_out_error(const Scorer& scorer, const Regressor& regressor,
+                            const RegressorScore& scored, const CandidateInFolds& in_folds) {
   const WhitenedFit& s = scorer.whitened();
-  std::vector<double> norms;
+  Norms norms;
   if (s.held.size() > 0) {
     const auto at = lines_of(s, s.held);
     const Eigen::VectorXd moved = motion(s, regressor, scored.theta);
     const Eigen::VectorXd a = -(s.U.topRows(s.fit_lines).transpose() * moved.head(s.fit_lines));
-    add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - moved(at), norms);
-    return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
+    norms.add(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - moved(at));
+    return std::move(norms).usual(s);
   }
-  norms = s.contradicted_m;
+  norms.points_m = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
-    add_norms(s, s.folds[f], left_in_fold(scorer, f, in_folds), norms);
-  return usual_errors(std::move(norms), s.table.most(), s.sigma_m);
+    norms.add(s, s.folds[f], left_in_fold(scorer, f, in_folds));
+  return std::move(norms).usual(s);
 }
 
 Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds) {
   const WhitenedFit& s = scorer.whitened();
   std::vector<double> before, after;
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
-    std::vector<double> without, with;
-    add_norms(s, s.folds[f], left_in_fold(scorer, f), without);
-    add_norms(s, s.folds[f], left_in_fold(scorer, f, in_folds), with);
-    before.push_back(sum_of_squares(without));
-    after.push_back(sum_of_squares(with));
+    before.push_back(squared_error(s, s.folds[f], left_in_fold(scorer, f)));
+    after.push_back(squared_error(s, s.folds[f], left_in_fold(scorer, f, in_folds)));
   }
   return gain_of(before, after);
 }

@@ -9,9 +9,15 @@
 
 namespace plumb::offline {
 
-/// 3-D error on poses that were not fitted, to first order, without single bad readings: on the
+/// Errors of poses that were not fitted.
+struct HeldOutError {
+  ErrorStats points;  // 3-D [m], without single bad readings
+  ErrorStats turns;   // angles [rad]; n = 0 where the fit uses no orientations
+};
+
+/// The error on poses that were not fitted, to first order: on the
 /// held-out poses of the whitened fit, or if there are none, by cross-validation over its folds.
-ErrorStats held_out_error(const Scorer& scorer);
+HeldOutError held_out_error(const Scorer& scorer);
 
 /// A candidate as each fold has it: the same everywhere, but of waves the frequencies that the
 /// other folds choose.
@@ -23,10 +29,11 @@ struct CandidateInFolds {
 /// The error with a regressor in the model.
 ///
 /// @param in_folds  What is added in each fold; without columns: nothing.
-ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
-                          const RegressorScore& scored, const CandidateInFolds& in_folds);
+HeldOutError held_out_error(const Scorer& scorer, const Regressor& regressor,
+                            const RegressorScore& scored, const CandidateInFolds& in_folds);
 
-/// How far the 3-D error falls with it, by cross-validation over the folds.
+/// How far the error falls with it, orientations counted in their sigmas, by cross-validation over
+/// the folds.
 Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds);
 
 }  // namespace plumb::offline

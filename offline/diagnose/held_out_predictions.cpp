@@ -10,10 +10,14 @@
 namespace plumb::offline {
 
 HeldOutPredictions::HeldOutPredictions(const Measurements& measured, const Split& split)
-    : measured_(&measured), rows_(held_rows(split)), predicted_(measured.p_M) {}
+    : measured_(&measured), rows_(held_rows(split)), predicted_(measured.p_M) {
+  if (measured.has_orientation()) turns_rad_ = Eigen::VectorXd::Zero(measured.size());
+}
 
 void HeldOutPredictions::put(const Calibration& calibration, const std::vector<int>& rows) {
-  const Rows3 points = predict_points(calibration.state, pick(*measured_, rows));
+  const Measurements some = pick(*measured_, rows);
+  const Rows3 points = predict_points(calibration.state, some);
+  if (turns_rad_.size() > 0) turns_rad_(rows) = turn_errors(calibration.state, some);
   for (std::size_t i = 0; i < rows.size(); ++i)
     predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
 }
@@ -36,6 +40,12 @@ ErrorStats HeldOutPredictions::stats(const BadRows& bad) const {
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (!bad.rows.contains(rows_[i]) || !far.contains(rows_[i])) usual.push_back(all[i]);
   return summarise(std::move(usual));
+}
+
+ErrorStats HeldOutPredictions::turn_stats() const {
+  if (turns_rad_.size() == 0) return {};
+  const Eigen::VectorXd held = turns_rad_(rows_);
+  return summarise({held.begin(), held.end()});
 }
 
 std::set<int> HeldOutPredictions::far_rows(const std::vector<double>& errors_m,

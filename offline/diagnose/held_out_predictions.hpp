@@ -34,6 +34,9 @@ class HeldOutPredictions {
   /// has made worse counts, and a bad one that the model now predicts well counts too.
   ErrorStats stats(const BadRows& bad) const;
 
+  /// Errors of the orientations of all rows [rad]; n = 0 where none were measured.
+  ErrorStats turn_stats() const;
+
   /// Of each row, in the order of held_rows of the split.
   std::vector<double> errors_m() const;
 
@@ -43,6 +46,7 @@ class HeldOutPredictions {
   const Measurements* measured_;
   std::vector<int> rows_;
   Rows3 predicted_;
+  Eigen::VectorXd turns_rad_;  // per row of the measurements; empty without orientations
 };
 
 }  // namespace plumb::offline

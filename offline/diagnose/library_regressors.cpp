@@ -15,7 +15,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kJointsWithWrist = 6;    // an arm of fewer has no wrist of three
+constexpr int kJointsWithWrist = 6;  // an arm of fewer has no wrist of three
+/// Where orientations are measured, a rotation counts as the motion of a point so far away [m].
+constexpr double kBeside_m = 0.1;
 constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
 
 struct Bound {
@@ -84,16 +86,31 @@ void motion_columns(const Bound& bound, Regressor& out) {
     const Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
     d = s.R_MB[i] * (d + cross<double>(e, s.arm_B[i]));
     auto lines = out.columns.col(c).segment(s.table.begin(i), s.table.count(i));
-    for (int k = 0, line = 0; k < 3; ++k)
-      if (s.measured->has_axis[k]) lines(line++) = d(k);
+    s.reading.project(d, s.R_MB[i] * e, lines);
     whiten(s, i, lines);
     for (int j = 0; j < s.joints(); ++j)
       lines += s.joint[j].segment(s.table.begin(i), s.table.count(i)) * motion.dq[j].d(lane);
   });
 }
 
+/// RMS motion [m] of the measured point and, by its rotation, of a point beside it: per unit of a
+/// column. A rotation that hardly moves the measured point moves others.
+double motion_beside(const WhitenedFit& s, const Regressor& regressor, Eigen::Index c) {
+  Eigen::VectorXd moved = motion(s, regressor, Eigen::VectorXd::Unit(regressor.columns.cols(), c));
+  const Eigen::Index points = s.reading.point_lines();
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < s.poses(); ++i) {
+    auto lines = moved.segment(s.table.begin(i), s.table.count(i));
+    unwhiten(s, i, lines);
+    sum += lines.head(points).squaredNorm() +
+           std::pow(kBeside_m, 2) * lines.tail(s.reading.turn_lines()).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<Eigen::Index>(1, s.poses())));
+}
+
 /// RMS motion of the measured point [m] per unit of a column.
 double motion_of(const WhitenedFit& s, const Regressor& regressor, Eigen::Index c) {
+  if (s.turns()) return motion_beside(s, regressor, c);
   double sum = 0.0;
   if (regressor.joint < 0)
     sum = regressor.columns.col(c).squaredNorm();

@@ -103,10 +103,11 @@ void divide(const std::vector<PoseRoot>& root, const LineTable& table, Lines& li
 
 double typical_sigma(const WhitenedFit& s) {
   double squares = 0.0;
+  const Eigen::Index points = s.reading.point_lines();
   for (Eigen::Index i = 0; i < s.poses(); ++i)
-    for (Eigen::Index k = 0; k < s.table.count(i); ++k)
+    for (Eigen::Index k = 0; k < points; ++k)
       squares += std::pow(s.sigma[s.table.begin(i) + k], 2) * s.root[i].row(k).squaredNorm();
-  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, s.table.lines())));
+  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, s.poses() * points)));
 }
 
 }  // namespace
@@ -125,10 +126,17 @@ ScatterLines scatter_lines(const WhitenedFit& s, const Eigen::MatrixXd& columns)
 }
 
 Repeatability repeatability_of(const WhitenedFit& s, const JointScatter& scatter) {
+  std::vector<Eigen::Index> of_points;
+  std::vector<double> sigma_m;
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
+    for (Eigen::Index k = 0; k < s.reading.point_lines(); ++k) {
+      of_points.push_back(s.table.begin(i) + k);
+      sigma_m.push_back(s.sigma[static_cast<std::size_t>(of_points.back())]);
+    }
   ScatterLines lines;
-  for (const auto& motion : s.joint) lines.joint.emplace_back(motion.head(s.fit_lines));
+  for (const auto& motion : s.joint) lines.joint.emplace_back(motion(of_points));
   SquaredMotions motions;
-  motions.add(lines, {s.sigma.begin(), s.sigma.begin() + s.fit_lines});
+  motions.add(lines, sigma_m);
   return motions.with(scatter);
 }
 
@@ -136,6 +144,7 @@ WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {
   WhitenedFit out;
   out.cell = s.cell;
   out.measured = s.measured;
+  out.reading = s.reading;
   out.chain = s.chain;
   out.sensors = s.sensors;
   out.noise = s.noise;

@@ -28,6 +28,7 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
   }
   for (const auto l : line) out.sigma.push_back(whitened.sigma[static_cast<std::size_t>(l)]);
   out.held = {static_cast<Eigen::Index>(pose.size()), static_cast<Eigen::Index>(pose.size())};
+  out.reading = whitened.reading;
   out.table = whitened.table.picked(pose);
   out.fit_lines = static_cast<Eigen::Index>(line.size());
   out.noise = whitened.noise;

@@ -10,6 +10,7 @@
 #include "diagnose/constants.hpp"
 #include "fit/split.hpp"
 #include "noise/noise_floor.hpp"
+#include "noise/orientation_floor.hpp"
 #include "noise/weights.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 #include "solve/evaluation.hpp"
@@ -42,13 +43,6 @@ void deal(const Measurements& measured, const std::vector<int>& fit, const std::
   out.held.end = static_cast<Eigen::Index>(out.row.size());
 }
 
-LineTable lines_of_poses(const WhitenedFit& s) {
-  FitData data;
-  data.measured = s.measured;
-  data.rows = s.row;
-  return data.line_table();
-}
-
 NoiseScale noise_scale(const NoiseFloor& floor, double sigma_m) {
   NoiseScale out;
   const double sigma = std::max(floor.sigma_m, kSmallestSigma_m);
@@ -57,6 +51,36 @@ NoiseScale noise_scale(const NoiseFloor& floor, double sigma_m) {
   out.variance = std::pow(sigma / sigma_m, 2);
   out.dof = trusted_dof(floor);
   return out;
+}
+
+/// 1 sigma by which orientations are divided [rad]; 0: the fit does not use them. The variance of a
+/// whitened line is the same for points and orientations: where the points scatter by more or less
+/// than is stated, `noise` says so, and the sigma of orientations follows. Where repeats tell their
+/// scatter, that counts, not the larger sigma that a fit uses while the model lacks something.
+double sigma_of_orientations(const Cell& cell, const Measurements& measured,
+                             const NoiseScale& noise) {
+  return orientation_floor(cell, measured).sigma_rad / std::sqrt(noise.variance);
+}
+
+/// 1 sigma of every line [m, rad], in the order of the lines.
+std::vector<double> sigma_of_lines(const WhitenedFit& s, const Rows3& sigma_m, double sigma_rad) {
+  std::vector<double> out;
+  for (const int row : s.row)
+    s.reading.components([&](int k) { out.push_back(k < 3 ? sigma_m(row, k) : sigma_rad); });
+  return out;
+}
+
+/// Mean of the measured coordinates of the points.
+double mean_sigma(const WhitenedFit& s, const Rows3& sigma_m) {
+  double sum = 0.0;
+  int count = 0;
+  for (const int row : s.row)
+    for (int k = 0; k < 3; ++k)
+      if (s.measured->has_axis[static_cast<std::size_t>(k)]) {
+        sum += sigma_m(row, k);
+        ++count;
+      }
+  return sum / std::max(1, count);
 }
 
 void look(const ArmState& state, WhitenedFit& out) {
@@ -82,37 +106,33 @@ void look(const ArmState& state, WhitenedFit& out) {
   }
 }
 
-/// Writes a motion of the target (measurement frame) into the lines of one pose, whitened.
-template <class Lines>
-void put(const WhitenedFit& s, Eigen::Index pose, const Vector3& v_M, Lines&& lines) {
-  Eigen::Index line = s.table.begin(pose);
-  for (int k = 0; k < 3; ++k)
-    if (s.measured->has_axis[k]) {
-      lines(line) = v_M(k) / s.sigma[line];
-      ++line;
-    }
-}
-
 void fill_carriers(WhitenedFit& s) {
   const Eigen::Index lines = s.table.lines();
   s.joint.assign(s.joints(), Eigen::VectorXd(lines));
   s.base.resize(lines, 6);
   s.tool.resize(lines, 3);
+  const Vector3 none = Vector3::Zero();
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
     const Matrix3& R_MB = s.R_MB[static_cast<std::size_t>(i)];
     const auto& f = s.frames[i];
+    const auto put = [&](const Vector3& shift, const Vector3& turn, auto&& all_lines) {
+      project(s, i, R_MB * shift, R_MB * turn,
+              all_lines.segment(s.table.begin(i), s.table.count(i)));
+    };
     const Vector3 target = f.tip.p + s.arm_B[i];
     for (int j = 0; j < s.joints(); ++j) {
       const Vector3 axis = f.joint[j].R.col(2) * s.chain.scale(j);
-      const Vector3 v = s.chain.revolute(j) ? cross<double>(axis, target - f.joint[j].p) : axis;
-      put(s, i, R_MB * v, s.joint[j]);
+      if (s.chain.revolute(j))
+        put(cross<double>(axis, target - f.joint[j].p), axis, s.joint[j]);
+      else
+        put(axis, none, s.joint[j]);
     }
     for (int k = 0; k < 3; ++k) {
       Vector3 e = Vector3::Zero();
       e(k) = 1.0;
-      put(s, i, R_MB * e, s.base.col(k));
-      put(s, i, R_MB * cross<double>(e, target), s.base.col(3 + k));
-      put(s, i, R_MB * (f.tip.R * e), s.tool.col(k));
+      put(e, none, s.base.col(k));
+      put(cross<double>(e, target), e, s.base.col(3 + k));
+      put(f.tip.R * e, none, s.tool.col(k));
     }
   }
 }
@@ -138,11 +158,13 @@ std::vector<Parameter> with_smooth_waves(const ArmState& state, std::vector<Para
 }
 
 /// Residual and model columns of all rows; the columns made orthonormal over the fit lines.
-void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3& sigma_m) {
+void clear_of_model(const Calibration& calibration, const Rows3& sigma_m, double sigma_rad,
+                    WhitenedFit& s) {
   FitData data;
   data.measured = s.measured;
   data.rows = s.row;
   data.sigma_m = sigma_m;
+  data.sigma_rad = sigma_rad;
   const Solution at = evaluate(data, calibration.state,
                                with_smooth_waves(calibration.state, calibration.parameters));
   s.y = at.residual;
@@ -201,22 +223,18 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
   out.cell = &cell;
   out.measured = &measured;
   deal(measured, fit, held, out);
-  out.table = lines_of_poses(out);
   const Rows3 sigma_m = stated_sigma(cell, measured);
-  double sum = 0.0;
-  for (int row : out.row)
-    for (int k = 0; k < 3; ++k)
-      if (measured.has_axis[k]) {
-        out.sigma.push_back(sigma_m(row, k));
-        sum += sigma_m(row, k);
-      }
-  out.sigma_m = sum / static_cast<double>(std::max<std::size_t>(1, out.sigma.size()));
+  out.sigma_m = mean_sigma(out, sigma_m);
+  out.noise = noise_scale(noise_floor(cell, measured, calibration.state), out.sigma_m);
+  const double sigma_rad = sigma_of_orientations(cell, measured, out.noise);
+  out.reading = TrackerReading(measured, sigma_rad > 0.0);
+  out.table = LineTable(std::vector<int>(out.row.size(), out.reading.lines()));
+  out.sigma = sigma_of_lines(out, sigma_m, sigma_rad);
   look(calibration.state, out);
-  clear_of_model(calibration, out, sigma_m);
+  clear_of_model(calibration, sigma_m, sigma_rad, out);
   for (const Outlier& outlier : calibration.outliers) out.contradicted_m.push_back(outlier.error_m);
   fill_carriers(out);
   fold_joints(out);
-  out.noise = noise_scale(noise_floor(cell, measured, calibration.state), out.sigma_m);
   return out;
 }
 

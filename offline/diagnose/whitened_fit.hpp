@@ -7,8 +7,9 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/calibration.hpp"
+#include "observe/line_table.hpp"
+#include "observe/tracker_reading.hpp"
 #include "plumb/runtime/detail/effect.hpp"
-#include "solve/line_table.hpp"
 #include "solve/orthonormal.hpp"
 
 namespace plumb::offline {
@@ -30,8 +31,9 @@ struct Segment {
 using PoseRoot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 /// A fitted model as a diagnosis looks at it: its whitened residuals, orthogonal to the columns of
-/// its own parameters. Rows are sorted by fold; every whitened coordinate is one line, pose by
-/// pose. Memory: about (lines of a pose * parameters + 300) numbers a pose.
+/// its own parameters. Rows are sorted by fold; every whitened coordinate of a point, and of an
+/// orientation that the fit uses, is one line, pose by pose. Memory: about (lines of a pose *
+/// parameters + 300) numbers a pose.
 struct WhitenedFit {
   const Cell* cell = nullptr;
   const Measurements* measured = nullptr;
@@ -41,11 +43,12 @@ struct WhitenedFit {
   /// Errors of the poses that the others contradict [m]: no model was fitted to them, so with folds
   /// they count as held out. What a missing effect changes of them is little beside them.
   std::vector<double> contradicted_m;
+  TrackerReading reading;      // what each pose shows
   LineTable table;             // of all poses
   Eigen::Index fit_lines = 0;  // of the fit poses
   Eigen::Index rank = 0;       // of the model's own columns
   NoiseScale noise;
-  double sigma_m = 0.0;  // typical 1 sigma of a coordinate
+  double sigma_m = 0.0;  // typical 1 sigma of a coordinate of a point
   /// What joint scatter alone explains of the residual without any effect [nats]: every candidate
   /// has to explain that much more before it counts.
   double scatter_nats = 0.0;
@@ -57,7 +60,7 @@ struct WhitenedFit {
                                      // the inverse information, SI, in this whitening
   Eigen::VectorXd correction;        // of the fitted parameters that this whitening asks for, SI
 
-  /// Whitened motion of the measured point, per unit of joint j: shape (lines,) each.
+  /// Whitened motion of the reflector, per unit of joint j: shape (lines,) each.
   std::vector<Eigen::VectorXd> joint;
   /// Its products with itself, y and U, summed over the lines of each pose, so that a function of
   /// the pose times a joint costs one line a pose: shapes (poses,), (poses,), (poses, rank).
@@ -71,7 +74,7 @@ struct WhitenedFit {
   std::vector<ChainFrames> frames;
   std::vector<Loads> loads;
   std::vector<MeasuredContext> context;
-  std::vector<double> sigma;   // (lines,) [m]
+  std::vector<double> sigma;   // (lines,) [m], of rotations [rad]
   std::vector<PoseRoot> root;  // of each pose: Cholesky factor, behind sigma; empty: the identity
   std::vector<Matrix3> R_MB;   // base in the measurement frame
   std::vector<Vector3> arm_B;  // tip to target
@@ -80,6 +83,12 @@ struct WhitenedFit {
   Eigen::Index poses() const { return static_cast<Eigen::Index>(row.size()); }
   Eigen::Index fit_poses() const { return held.begin; }
   int joints() const { return chain.joints(); }
+
+  /// The lines of the point of a pose, the first ones.
+  auto point_lines(Eigen::Index pose) const {
+    return Eigen::seqN(table.begin(pose), Eigen::Index{reading.point_lines()});
+  }
+  bool turns() const { return reading.turn_lines() > 0; }
   Eigen::MatrixXd inverse_information() const {
     return half_information * half_information.transpose();
   }
@@ -96,8 +105,18 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
 /// Computes joint_square, joint_y and joint_U again.
 void fold_joints(WhitenedFit& whitened);
 
-/// Lines of one pose: a displacement [m] of the measured coordinates in standard
-/// deviations, and back.
+/// Writes a motion of the reflector, as a shift [m] and a turn [rad] in the measurement frame, into
+/// the lines of one pose, in standard deviations of a reading.
+template <class Lines>
+void project(const WhitenedFit& s, Eigen::Index pose, const Vector3& shift_M, const Vector3& turn_M,
+             Lines&& lines) {
+  s.reading.project(shift_M, turn_M, lines);
+  for (Eigen::Index k = 0; k < s.table.count(pose); ++k)
+    lines(k) /= s.sigma[s.table.begin(pose) + k];
+}
+
+/// Lines of one pose: a motion [m, rad] of the measured coordinates in standard deviations, and
+/// back.
 void whiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
 void unwhiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
 

@@ -152,9 +152,8 @@ inline constexpr double kParallel_rad = 1e-3;
 
 /// Rows that are judged: they tell a scatter to 4 % and cost less than the fit. cost.
 inline constexpr int kJudgedRows = 500;
-/// Rows and repeats below which nothing is judged. data.
+/// Rows below which nothing is judged. data.
 inline constexpr int kFewestJudged = 6;
-inline constexpr std::size_t kFewestOrientationRepeats = 5;
 /// Times the stated error up to which orientations are as stated. chosen.
 inline constexpr double kAsStatedTimes = 2.0;
 /// Another reading of the columns explains them if it leaves less than this share of the error as

@@ -11,6 +11,7 @@
 #include "fit/split.hpp"
 #include "noise/error_stats.hpp"
 #include "noise/noise_floor.hpp"
+#include "noise/orientation_floor.hpp"
 #include "tree/choice.hpp"
 
 namespace plumb::offline {
@@ -36,6 +37,7 @@ struct Fit {
   ErrorStats held_without_outliers;    // of the other held-out poses
   ErrorStats fit;                      // in-sample: never accuracy
   NoiseFloor floor;
+  OrientationFloor turn_floor;     // known only where orientations are fitted
   double unavoidable_ratio = 1.0;  // error of a correct model fitted to so few poses [noise floors]
   std::vector<std::string> still;  // joints that never moved
   std::vector<Problem> remarks;

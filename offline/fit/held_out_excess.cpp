@@ -19,4 +19,10 @@ std::optional<HeldOutExcess> held_out_excess(double mean_m, const NoiseFloor& fl
   return HeldOutExcess{mean_m / floor.mean_m, unavoidable, floor.inferred_times()};
 }
 
+std::optional<HeldOutExcess> held_out_excess(double mean_rad, const OrientationFloor& floor,
+                                             double unavoidable) {
+  if (!floor.known() || !(floor.mean_rad > 0.0)) return std::nullopt;
+  return HeldOutExcess{mean_rad / floor.mean_rad, unavoidable, 1.0};
+}
+
 }  // namespace plumb::offline

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "noise/noise_floor.hpp"
+#include "noise/orientation_floor.hpp"
 
 namespace plumb::offline {
 
@@ -34,6 +35,12 @@ struct HeldOutExcess {
 /// @param mean_m       Mean 3-D error of the held-out poses without gross outliers [m].
 /// @param unavoidable  unavoidable_ratio of the fit.
 std::optional<HeldOutExcess> held_out_excess(double mean_m, const NoiseFloor& floor,
+                                             double unavoidable);
+
+/// The same of orientations.
+///
+/// @param mean_rad  Mean angle between measured and predicted orientations of held-out poses [rad].
+std::optional<HeldOutExcess> held_out_excess(double mean_rad, const OrientationFloor& floor,
                                              double unavoidable);
 
 }  // namespace plumb::offline

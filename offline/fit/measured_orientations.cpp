@@ -6,16 +6,15 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "arm/arm_state.hpp"
 #include "arm/effect_binding.hpp"
 #include "arm/measured_arm.hpp"
 #include "arm/predicted_points.hpp"
-#include "cell/group_rows.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/constants.hpp"
+#include "noise/orientation_floor.hpp"
 #include "numbers/quantile.hpp"
 #include "numbers/rotation_fit.hpp"
 #include "solve/constants.hpp"
@@ -40,12 +39,6 @@ struct ToolTurns {
   std::size_t size() const { return of_tool.size(); }
   Matrix3 at(std::size_t i) const { return frame[frame_of[i]] * of_tool[i] * target[target_of[i]]; }
 };
-
-std::vector<Matrix3> rotations_of(const Rows4& quat) {
-  std::vector<Matrix3> out;
-  for (const auto& q : quat.rowwise()) out.push_back(from_pose({{}, {q(0), q(1), q(2), q(3)}}).R);
-  return out;
-}
 
 ToolTurns tool_turns(const ArmState& state, const Measurements& at) {
   const MeasuredArm arm(state.arm);
@@ -128,21 +121,6 @@ double largest_turn(const std::vector<Matrix3>& all) {
   for (const Matrix3& one : all)
     out = std::max(out, rotation_vector(one * all.front().transpose()).norm());
   return out;
-}
-
-/// Robust standard deviation per axis between repeats of a pose; nothing if there are few.
-std::optional<double> scatter_of_repeats(const Measurements& measured,
-                                         const std::vector<Matrix3>& read) {
-  std::vector<int> all(read.size());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<double> off;
-  visit_groups(measured.replicate_group, std::move(all), [&](std::span<const int> rows) {
-    for (std::size_t k = 1; k < rows.size(); k += 2)
-      off.push_back(rotation_vector(read[rows[k]] * read[rows[k - 1]].transpose()).norm() /
-                    M_SQRT2);
-  });
-  if (off.size() < kFewestOrientationRepeats) return std::nullopt;
-  return median(off) / kMedianChi[3];
 }
 
 Cell weighing(const Cell& cell, std::optional<double> sigma_rad) {
@@ -304,7 +282,7 @@ class OrientationTest {
     if (both.points_m > kHarm * points_error_) out_.kind = Kind::kContradict;
     if (!out_.stated || out_.kind == Kind::kContradict) return;
     out_.times = both.scatter_rad / stated;
-    const auto repeats = scatter_of_repeats(measured_, labelled_);
+    const auto repeats = orientation_scatter(measured_, measured_.replicate_group);
     out_.kind = repeats && *repeats <= enough ? Kind::kMissed : Kind::kScattered;
   }
 

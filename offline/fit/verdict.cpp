@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "fit/constants.hpp"
 #include "noise/usual_errors.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kNamed = 3;  // readings that stand out, in a headline
 
+std::string deg(double rad) { return fmt::format("{:.4f} deg", rad * 180.0 / std::numbers::pi); }
 std::string mm(double m) { return fmt::format("{:.3f} mm", m * 1e3); }
 
 std::string readings(int n) { return counted_words(n, "reading", "readings"); }
@@ -80,9 +82,28 @@ std::string scatter_words(const Fit& fit) {
       times_words(fit), mm(fit.floor.inferred_m));
 }
 
+/// Whether something that the model lacks turns the tool.
+bool turned(const Fit& fit) {
+  const auto excess = turn_excess_of(fit);
+  return excess && excess->lack_of_fit();
+}
+
+/// "orientations miss by 0.0110 deg, 6.0 times their noise floor 0.0018 deg: something that turns
+/// the tool is missing"
+std::string turned_words(const Fit& fit) {
+  const bool stated = fit.turn_floor.source == NoiseFloor::Source::kSigma;
+  return fmt::format(
+      "orientations miss by {}, {:.1f} times their noise floor {}{}: something that turns the tool "
+      "is "
+      "missing",
+      deg(fit.turn_held.mean), turn_excess_of(fit)->times, deg(fit.turn_floor.mean_rad),
+      stated ? " of the stated sigma" : "");
+}
+
 Quality quality_within(const Fit& fit) {
   const double times = times_floor(fit);
   if (left(fit).lack_of_fit()) return Quality::kGoodNotComplete;
+  if (turned(fit)) return Quality::kGoodButTurned;
   if (times <= 0.0 || times >= kBelowTheFloor) return Quality::kGood;
   return fit.floor.source == NoiseFloor::Source::kRepeats ? Quality::kRepeatsDisagree
                                                           : Quality::kSigmaTooLarge;
@@ -91,6 +112,7 @@ Quality quality_within(const Fit& fit) {
 Quality quality_beyond(const Fit& fit) {
   const bool measured_floor = fit.floor.source == NoiseFloor::Source::kRepeats;
   if (!measured_floor && times_floor(fit) < kBelowTheFloor) return Quality::kBeyondSigmaTooLarge;
+  if (!left(fit).lack_of_fit() && turned(fit)) return Quality::kBeyondAndTurned;
   switch (left(fit).level()) {
     case HeldOutExcess::Level::kAtTheFloor:
       return Quality::kLimitedByNoise;
@@ -181,6 +203,11 @@ std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit) {
   return held_out_excess(usual_held(fit).mean, fit.floor, fit.unavoidable_ratio);
 }
 
+std::optional<HeldOutExcess> turn_excess_of(const Fit& fit) {
+  if (fit.turn_held.n == 0) return std::nullopt;
+  return held_out_excess(fit.turn_held.mean, fit.turn_floor, fit.unavoidable_ratio);
+}
+
 bool keeps(const ErrorStats& held, double tolerance_m) {
   return held.p95 <= tolerance_m && held.max <= kWorstPose * tolerance_m;
 }
@@ -207,6 +234,7 @@ Grade grade(const Fit& fit, double tolerance_m) {
     case Quality::kRepeatsDisagree:
     case Quality::kSigmaTooLarge:
     case Quality::kGoodNotComplete:
+    case Quality::kGoodButTurned:
     case Quality::kGoodButForSome:
     case Quality::kWorstPoseIsFar:
     case Quality::kLimitedByNoise:
@@ -241,6 +269,7 @@ std::string verdict_head(const Fit& fit, double tolerance_m) {
     case Quality::kRepeatsDisagree:
     case Quality::kSigmaTooLarge:
     case Quality::kGoodNotComplete:
+    case Quality::kGoodButTurned:
       return good(fit, tolerance_m) + ", not complete";
     case Quality::kWorstPoseIsFar:
       return "Not good everywhere";
@@ -275,6 +304,9 @@ std::string verdict(const Fit& fit, double tolerance_m) {
           "{}: {}, within {}; but {}: something physical is still "
           "missing.",
           good(fit, tolerance_m), size, tolerance, times_words(fit));
+    case Quality::kGoodButTurned:
+      return fmt::format("{}: {}, within {}; but {}.", good(fit, tolerance_m), size, tolerance,
+                         turned_words(fit));
     case Quality::kGoodButForSome:
       return but_for_words(fit, size, tolerance_m);
     case Quality::kWorstPoseIsFar:
@@ -292,6 +324,9 @@ std::string verdict(const Fit& fit, double tolerance_m) {
           "Not good enough: {}, over the tolerance of {}; but the noise as it is stated would give "
           "{}: sigma is stated too large. Correct sigma_um, then what is missing can be judged.",
           size, tolerance, mm(fit.floor.mean_m));
+    case Quality::kBeyondAndTurned:
+      return fmt::format("Not good enough: {}, over the tolerance of {}; {}, but {}.", size,
+                         tolerance, times_words(fit), turned_words(fit));
     case Quality::kTooFewPoses:
       return fmt::format(
           "Not good enough: {}, over the tolerance of {}; {}, as "

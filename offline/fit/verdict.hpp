@@ -29,15 +29,18 @@ enum class Quality {
   kSigmaTooLarge,     // the same, but the noise is stated and not measured
   kGoodNoiseUnknown,  // within tolerance; no noise floor is known
   kGoodNotComplete,   // within tolerance, but clearly above the noise floor
+  kGoodButTurned,     // within tolerance, but the orientations are clearly above their noise floor
   kGoodButForSome,    // good, but only without the readings that stand out
   kWorstPoseIsFar,    // 95 % within tolerance, but the worst pose is far beyond it
   kLimitedByNoise,    // beyond tolerance, at the noise floor
   kPerhapsLimitedByJoints,  // beyond tolerance, by no more than the scatter of the joints, which is
                             // inferred and not measured, would cause
   kBeyondSigmaTooLarge,     // beyond tolerance, and clearly below the noise as it is stated
-  kTooFewPoses,             // beyond tolerance, by no more than few poses make unavoidable
-  kBeyond,                  // beyond tolerance, clearly above the noise floor
-  kBeyondNoiseUnknown       // beyond tolerance; no noise floor is known
+  kBeyondAndTurned,    // beyond tolerance; the points show no more than noise and few poses do,
+                       // but the orientations are clearly above their noise floor
+  kTooFewPoses,        // beyond tolerance, by no more than few poses make unavoidable
+  kBeyond,             // beyond tolerance, clearly above the noise floor
+  kBeyondNoiseUnknown  // beyond tolerance; no noise floor is known
 };
 
 Quality quality(const Fit& fit, double tolerance_m);
@@ -58,6 +61,9 @@ std::string verdict_head(const Fit& fit, double tolerance_m);
 /// The held-out error beside the unavoidable one, by `usual_held`. Nothing without held-out poses
 /// or a noise floor.
 std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit);
+
+/// The same of the measured orientations. Nothing where they are not fitted.
+std::optional<HeldOutExcess> turn_excess_of(const Fit& fit);
 
 /// The quality with its figures in one sentence. compare/full_verdict.hpp, which also needs the
 /// readings, adds another possible cause.

@@ -35,6 +35,9 @@ inline constexpr std::array kNearShares = {0.1, 0.25, 0.5, 1.0};
 
 // Repeats of a pose under one context.
 
+/// Pairs of orientations below which repeats do not tell their scatter. data.
+inline constexpr std::size_t kFewestOrientationPairs = 5;
+
 /// Temperatures are the same within this [K]: it changes a metre of steel by 6 um. arms.
 inline constexpr double kSameTemperature_K = 0.5;
 /// Stated loads are the same within this [kg] or [m]: a rounding of the file. data.

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solve/line_table.hpp"
+#include "observe/line_table.hpp"
 
 namespace plumb::offline {
 

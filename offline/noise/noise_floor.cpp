@@ -16,9 +16,7 @@
 #include "solve/constants.hpp"
 
 namespace plumb::offline {
-namespace {
 
-/// Mean of the chi distribution: E|x| of an isotropic normal vector with unit sigma.
 double mean_norm(int axes) {
   switch (axes) {
     case 1:
@@ -29,6 +27,8 @@ double mean_norm(int axes) {
       return 2.0 * std::sqrt(2.0 / M_PI);
   }
 }
+
+namespace {
 
 using Readings = std::vector<Eigen::RowVector3d>;
 

@@ -23,6 +23,10 @@ struct NoiseFloor {
   double inferred_times() const { return inferred_m > mean_m ? inferred_m / mean_m : 1.0; }
 };
 
+/// Mean of the chi distribution: the mean length of a normal vector with 1 sigma about each axis,
+/// in sigmas. For one to three axes.
+double mean_norm(int axes);
+
 /// "noise floor 0.016 mm", of a stated sigma "noise floor 0.016 mm of the stated sigma".
 std::string floor_words(const NoiseFloor& floor);
 

@@ -125,9 +125,11 @@ void add_numbers(const Cell& cell, const Measurements& at, const Variant& varian
 
 }  // namespace
 
-RivalColumns rival_columns(const Cell& cell, const PlanStart& start, const EffectEntry& a,
+RivalColumns rival_columns(const Cell& as_measured, const PlanStart& start, const EffectEntry& a,
                            const EffectEntry& b, const std::vector<ReadingOption>& options,
                            const Circumstances& circumstances) {
+  Cell cell = as_measured;
+  cell.measurement.sigma_rad.reset();  // poses are chosen by the points that they will show
   const Measurements none = nothing_measured(cell);
   const Measurements& used = start.calibration ? start.used : none;
   const Measurements all = with_options(cell, used, start.pool, options, circumstances);
@@ -209,9 +211,10 @@ RivalColumns rival_columns(const Cell& cell, const PlanStart& start, const Effec
   for (std::size_t i = 0; i < at_all.row.size(); ++i) {
     if (at_all.row[i] < n) continue;
     const auto option = static_cast<std::size_t>(at_all.row[i] - n);
-    const Eigen::Index line = static_cast<Eigen::Index>(i) * at_all.axes;
-    out.G[option] = root * G.middleRows(line, at_all.axes);
-    out.Z[option] = root * Z.middleRows(line, at_all.axes);
+    const auto reading = static_cast<Eigen::Index>(i);
+    const Eigen::Index line = at_all.table.begin(reading), count = at_all.table.count(reading);
+    out.G[option] = root * G.middleRows(line, count);
+    out.Z[option] = root * Z.middleRows(line, count);
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include "cell/packed_matrix.hpp"
 #include "noise/error_stats.hpp"
 #include "noise/noise_floor.hpp"
+#include "noise/orientation_floor.hpp"
 #include "program/json.hpp"
 
 /// A struct in a kept file is described once, and both written and read by that description:
@@ -182,6 +183,13 @@ void describe(Fields& fields, typename Fields::template Of<NoiseFloor>& floor) {
   fields.later("dof", floor.dof);
   fields("source", floor.source);
   fields.later("inferred_m", floor.inferred_m);
+}
+
+template <class Fields>
+void describe(Fields& fields, typename Fields::template Of<OrientationFloor>& floor) {
+  fields("sigma_rad", floor.sigma_rad);
+  fields("mean_rad", floor.mean_rad);
+  fields("source", floor.source);
 }
 
 }  // namespace plumb::offline

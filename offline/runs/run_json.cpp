@@ -134,6 +134,7 @@ void describe(Fields& fields, typename Fields::template Of<Run>& run) {
   fields.later("held_out_outliers", fit.held_outliers);
   fields.later("held_out_without_outliers", fit.held_without_outliers);
   fields("noise_floor", fit.floor);
+  fields.where(fit.turn_floor.known(), "orientation_floor", fit.turn_floor);
   fields.later("unavoidable_ratio", fit.unavoidable_ratio);
   fields.later("still_joints", fit.still);
   fields.where(fit.orientations.kind != MeasuredOrientations::Kind::kNone, "orientations",

@@ -179,6 +179,14 @@ Json joints_json(const Cell& cell, const EffectEntry& effect) {
   return out;
 }
 
+Json turns_json(const FoundTurns& turns) {
+  Json out;
+  put(out, "before_deg", to_deg(turns.before.mean));
+  put(out, "after_deg", to_deg(turns.after.mean));
+  put(out, "noise_floor_deg", to_deg(turns.floor.mean_rad));
+  return out;
+}
+
 Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   Json out{{"verdict", name_of(d.finding)}, {"verdict_text", d.text}};
   add_floor(d.floor, out);
@@ -192,6 +200,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   put_error(out, "held_out_after", d.after);
   out["held_out_before"] = stats_json(d.before);
   out["held_out_after"] = stats_json(d.after);
+  if (d.turns) out["held_out_orientation"] = turns_json(*d.turns);
   out["added"] = Json::array();
   for (const auto& a : d.added) {
     Json one = entry_json(cell, a.entry);

@@ -31,6 +31,22 @@ Blocks choosing_note(const Diagnosis& d) {
                                             : "the line of the last one is a fit to all"))};
 }
 
+/// The same of orientations.
+Table turn_steps(const Cell& cell, const Diagnosis& d) {
+  Table table{.name = "orientation_steps",
+              .caption = "Held-out orientation error [deg] as the model grows",
+              .head = {"held-out orientation error [deg]", head::kMean, head::kRms, head::kP95,
+                       head::kMax}};
+  const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
+  const auto add = [&](const std::string& name, const ErrorStats& e) {
+    table.add({name, deg(e.mean), deg(e.rms), deg(e.p95), deg(e.max)});
+  };
+  add("now", d.turns->before);
+  for (const auto& a : d.added) add("+ " + in_words(cell, a), a.turns);
+  table.add({"noise floor", deg(d.turns->floor.mean_rad)});
+  return table;
+}
+
 Blocks steps_blocks(const Cell& cell, const Diagnosis& d) {
   Table table{.name = "steps",
               .caption = "Held-out error [mm] as the model grows",
@@ -44,6 +60,7 @@ Blocks steps_blocks(const Cell& cell, const Diagnosis& d) {
   if (d.floor.source != NoiseFloor::Source::kNone)
     table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
   Blocks out{std::move(table)};
+  if (d.turns) out.emplace_back(turn_steps(cell, d));
   append(out, folds_note(d.folds, d.poses_fit));
   append(out, choosing_note(d));
   return out;
@@ -159,7 +176,7 @@ std::string support_words(const Diagnosis& d, const Candidate& c) {
   const bool either = is_either(d, c.entry);
   if (!c.supported && !either) return "no";
   if (!c.plausible) return "unlikely";
-  if (!falls(d.before.mean, c.alone.mean)) return "no gain";
+  if (!helps(d, c)) return "no gain";
   return either ? fmt::format("one of {}", 1 + d.alternatives.size() + (d.slow_motion ? 1 : 0))
                 : "yes";
 }

@@ -21,7 +21,7 @@ std::vector<std::string> row(const std::string& name, const ErrorStats& s,
           mm(s.max)};
 }
 
-Table turn_table(const ErrorStats& s) {
+Table turn_table(const ErrorStats& s, const OrientationFloor& floor) {
   Table table{.name = "orientations",
               .caption = "Orientation errors, measured - predicted [deg]",
               .head = {"orientation error [deg]", head::kReadings, head::kMean, head::kRms,
@@ -30,6 +30,10 @@ Table turn_table(const ErrorStats& s) {
   const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
              deg(s.max)});
+  if (floor.known())
+    table.add({floor.source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated"
+                                                          : "noise floor",
+               "", deg(floor.mean_rad)});
   return table;
 }
 
@@ -114,18 +118,22 @@ Blocks folds_note(int folds, int readings) {
 Blocks error_blocks(const Measurements& measured, const Fit& fit) {
   Blocks out{error_table(measured, fit)};
   append(out, folds_note(fit.split.folds, fit.fit.n));
-  out.emplace_back(turn_table(fit.turn_held));
+  out.emplace_back(turn_table(fit.turn_held, fit.turn_floor));
   return out;
 }
 
-void add_turns(const ErrorStats& turn_held, Json& out) {
-  const ErrorStats& s = turn_held;
+void add_turns(const Fit& fit, Json& out) {
+  const ErrorStats& s = fit.turn_held;
   if (s.n == 0) return put_null(out, "held_out_orientation", "orientations are not fitted");
   Json turns{{"n", s.n}};
   put(turns, "mean_deg", to_deg(s.mean));
   put(turns, "rms_deg", to_deg(s.rms));
   put(turns, "p95_deg", to_deg(s.p95));
   put(turns, "max_deg", to_deg(s.max));
+  if (fit.turn_floor.known())
+    put(turns, "noise_floor_deg", to_deg(fit.turn_floor.mean_rad));
+  else
+    put_null(turns, "noise_floor_deg", "an earlier version kept none");
   out["held_out_orientation"] = turns;
 }
 

@@ -27,7 +27,7 @@ std::string text_of(const MeanInterval& interval);
 void add_interval(const MeanInterval& interval, Json& out);
 
 /// held_out_orientation: in deg; null with reason if orientations are not fitted.
-void add_turns(const ErrorStats& turn_held, Json& out);
+void add_turns(const Fit& fit, Json& out);
 
 /// orientation: what the measured orientations are, `meant` their readings in words; nothing if
 /// there are none.

@@ -184,7 +184,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
   put(out, "calibrability", c.calibrability);
   out["held_out"] = stats_json(fit.held);
   add_interval(held_out_interval(measured, fit), out["held_out"]);
-  add_turns(fit.turn_held, out);
+  add_turns(fit, out);
   add_orientation(fit.orientations, {}, out);
   out["fit"] = stats_json(fit.fit);
   out["held_out_without_outliers"] = stats_json(fit.held_without_outliers);

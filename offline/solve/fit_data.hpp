@@ -5,8 +5,9 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "observe/line_table.hpp"
+#include "observe/tracker_reading.hpp"
 #include "solve/known_arm.hpp"
-#include "solve/line_table.hpp"
 #include "solve/weak_directions.hpp"
 
 namespace plumb::offline {
@@ -23,8 +24,8 @@ struct FitData {
   KnownArm arm = {};           // prior of the fitted numbers by an earlier calibration
   bool series = false;         // the amplitudes of series of waves are fitted as well
 
-  /// Residuals of one row of the measurements.
-  int lines_of(int row) const;
+  /// What each row shows.
+  TrackerReading reading() const { return {*measured, sigma_rad > 0.0}; }
   /// Residuals of all rows, priors not counted.
   int residual_count() const;
   /// Where those of each of `rows` stand. Cost: rows.

@@ -18,6 +18,7 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
     ++row;
   };
   const auto& m = *data_.measured;
+  const TrackerReading reading = data_.reading();
   const bool departed = m.departure_B.rows() > 0;
   const bool has_effects = !geometry.state().arm.effects.empty();
   for (int at = first; at < last; ++at) {
@@ -28,13 +29,18 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
                                   : MeasuredContext{},
                       point, departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero(), setup);
     if (point.undefined >= 0) return {i, point.undefined};
-    for (int k = 0; k < 3; ++k)
-      if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
-    if (data_.sigma_rad <= 0.0) continue;
-    const auto quat = m.quat_M.row(i);
-    const Matrix3 R_MG = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
-    const Vector3 turn = rotation_vector(R_MG * point.R_MG.transpose());
-    for (int k = 0; k < 3; ++k) emit(turn(k), data_.sigma_rad, 3 + k);
+    Vector3 turn = Vector3::Zero();
+    if (reading.turn_lines() > 0) {
+      const auto quat = m.quat_M.row(i);
+      const Matrix3 R_MG = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
+      turn = rotation_vector(R_MG * point.R_MG.transpose());
+    }
+    reading.components([&](int k) {
+      if (k < 3)
+        emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
+      else
+        emit(turn(k - 3), data_.sigma_rad, k);
+    });
   }
   return {};
 }

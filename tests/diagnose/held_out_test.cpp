@@ -35,7 +35,7 @@ TEST_F(HeldOut, WithoutACandidateIsWhatTheModelLeavesAtThePosesItNeverSaw) {
     norms.push_back(lines.norm());
   }
   const ErrorStats expected = usual_errors(norms, s.table.most(), s.sigma_m);
-  const ErrorStats found = held_out_error(Scorer(s));
+  const ErrorStats found = held_out_error(Scorer(s)).points;
   EXPECT_EQ(found.n, expected.n);
   EXPECT_NEAR(found.rms, expected.rms, 1e-12 * expected.rms);
 }
@@ -47,7 +47,8 @@ TEST_F(HeldOut, OfNothingButNoiseIsNeverImprovedMuch) {
   const CandidateInFolds candidate = in_folds(s, gear, scored);
   EXPECT_LT(held_out_gain(scorer, candidate).share, 0.05);
   EXPECT_FALSE(held_out_gain(scorer, candidate).clear);
-  EXPECT_GT(held_out_error(scorer, gear, scored, candidate).rms, 0.9 * held_out_error(scorer).rms);
+  EXPECT_GT(held_out_error(scorer, gear, scored, candidate).points.rms,
+            0.9 * held_out_error(scorer).points.rms);
 }
 
 TEST_F(HeldOut, OfAnEffectThatIsThereFallsToTheNoise) {
@@ -57,8 +58,8 @@ TEST_F(HeldOut, OfAnEffectThatIsThereFallsToTheNoise) {
     const Scorer scorer(s);
     const RegressorScore scored = scorer.score(gear);
     const CandidateInFolds candidate = in_folds(s, gear, scored);
-    const double before = held_out_error(scorer).rms;
-    const double after = held_out_error(scorer, gear, scored, candidate).rms;
+    const double before = held_out_error(scorer).points.rms;
+    const double after = held_out_error(scorer, gear, scored, candidate).points.rms;
     EXPECT_LT(after, 0.4 * before);
     EXPECT_GT(after, 0.9 * std::sqrt(3.0) * s.sigma_m) << "no less than the noise is left";
     EXPECT_TRUE(held_out_gain(scorer, candidate).clear);
@@ -80,7 +81,7 @@ TEST_F(HeldOut, ACandidateWithoutColumnsAddsNothing) {
   const Scorer scorer(s);
   const CandidateInFolds none = in_folds(s, {}, {});
   EXPECT_EQ(held_out_gain(scorer, none).share, 0.0);
-  EXPECT_EQ(held_out_error(scorer, {}, {}, none).rms, held_out_error(scorer).rms);
+  EXPECT_EQ(held_out_error(scorer, {}, {}, none).points.rms, held_out_error(scorer).points.rms);
 }
 
 TEST_F(HeldOut, WhatTheModelCanDoItselfChangesNothing) {
@@ -92,15 +93,15 @@ TEST_F(HeldOut, WhatTheModelCanDoItselfChangesNothing) {
   known.members = {0, 1};
   RegressorScore scored;
   scored.theta = Eigen::Vector2d(3.0, -40.0);
-  EXPECT_NEAR(held_out_error(scorer, known, scored, {}).rms, held_out_error(scorer).rms,
-              1e-6 * held_out_error(scorer).rms);
+  EXPECT_NEAR(held_out_error(scorer, known, scored, {}).points.rms,
+              held_out_error(scorer).points.rms, 1e-6 * held_out_error(scorer).points.rms);
 }
 
 TEST_F(HeldOut, ReadingsThatContradictTheOthersCountAsPosesThatWereNotFitted) {
   WhitenedFit s = all_in_folds(leaving(arm, noise));
-  const ErrorStats without = held_out_error(Scorer(s));
+  const ErrorStats without = held_out_error(Scorer(s)).points;
   s.contradicted_m = {1.5 * s.sigma_m, 2.5 * s.sigma_m};  // as the others: none is left out
-  EXPECT_EQ(held_out_error(Scorer(s)).n, without.n + 2);
+  EXPECT_EQ(held_out_error(Scorer(s)).points.n, without.n + 2);
 }
 
 TEST_F(HeldOut, TwiceTheErrorInTwiceTheNoiseIsTheSameGain) {
@@ -116,7 +117,7 @@ TEST_F(HeldOut, TwiceTheErrorInTwiceTheNoiseIsTheSameGain) {
     const RegressorScore scored = scorer.score(regressor);
     const CandidateInFolds candidate = in_folds(s, regressor, scored);
     return std::pair{held_out_gain(scorer, candidate).share,
-                     held_out_error(scorer, regressor, scored, candidate).rms};
+                     held_out_error(scorer, regressor, scored, candidate).points.rms};
   };
   EXPECT_NEAR(of(two).first, of(one).first, 1e-9);
   EXPECT_NEAR(of(two).second, 2.0 * of(one).second, 1e-9 * of(one).second);

@@ -143,9 +143,9 @@ TEST(ScatteredFit, ReadingsOfOneStopAreOnePoseOfTheirMean) {
     int count = 0;
     for (const int row : s.row)
       count += (m.q.row(row) - m.q.row(there.row[i])).norm() == 0.0 ? 1 : 0;
-    for (Eigen::Index k = 0; k < s.table.count(pose); ++k) {
+    for (Eigen::Index k = 0; k < s.table.count(i); ++k) {
       const auto of = [&](const WhitenedFit& fit, Eigen::Index pose) {
-        return fit.sigma[static_cast<std::size_t>(s.table.begin(pose) + k)];
+        return fit.sigma[static_cast<std::size_t>(fit.table.begin(pose) + k)];
       };
       EXPECT_NEAR(of(there, i) * std::sqrt(count), of(s, 0), 1e-12) << i;
     }

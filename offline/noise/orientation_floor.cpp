@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noise/orientation_floor.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "cell/group_rows.hpp"
+#include "noise/constants.hpp"
+#include "noise/repeat_groups.hpp"
+#include "numbers/quantile.hpp"
+#include "plumb/runtime/transform.hpp"
+#include "solve/constants.hpp"
+
+namespace plumb::offline {
+
+std::vector<Matrix3> rotations_of(const Rows4& quat) {
+  std::vector<Matrix3> out;
+  for (Eigen::Index i = 0; i < quat.rows(); ++i)
+    out.push_back(from_pose({{}, {quat(i, 0), quat(i, 1), quat(i, 2), quat(i, 3)}}).R);
+  return out;
+}
+
+std::optional<double> orientation_scatter(const Measurements& measured,
+                                          const std::vector<int>& group) {
+  std::vector<int> rows;
+  for (int i = 0; i < measured.size(); ++i)
+    if (measured.set.empty() || measured.set[static_cast<std::size_t>(i)] != SetMark::kIgnore)
+      rows.push_back(i);
+  const std::vector<Matrix3> read = rotations_of(measured.quat_M);
+  std::vector<double> off;
+  visit_groups(group, std::move(rows), [&](std::span<const int> of_pose) {
+    for (std::size_t k = 1; k < of_pose.size(); k += 2) {
+      const int a = of_pose[k - 1], b = of_pose[k];
+      if (measured.quat_M.row(a) == measured.quat_M.row(b) &&
+          measured.p_M.row(a) == measured.p_M.row(b))
+        continue;
+      off.push_back(rotation_vector(read[static_cast<std::size_t>(b)] *
+                                    read[static_cast<std::size_t>(a)].transpose())
+                        .norm() /
+                    std::sqrt(2.0));
+    }
+  });
+  if (off.size() < kFewestOrientationPairs) return std::nullopt;
+  return median(off) / kMedianChi[3];
+}
+
+OrientationFloor orientation_floor(const Cell& cell, const Measurements& measured) {
+  OrientationFloor out;
+  if (!measured.has_orientation() || !cell.measurement.sigma_rad) return out;
+  if (const auto repeats = orientation_scatter(measured, repeat_groups(measured))) {
+    out.source = NoiseFloor::Source::kRepeats;
+    out.sigma_rad = *repeats;
+  } else {
+    out.source = NoiseFloor::Source::kSigma;
+    out.sigma_rad = *cell.measurement.sigma_rad;
+  }
+  out.mean_rad = mean_norm(3) * out.sigma_rad;
+  return out;
+}
+
+}  // namespace plumb::offline
