@@ -69,6 +69,9 @@ inline constexpr double kRealShare = 0.005;
 inline constexpr double kLittleShare = 0.1;
 /// An error of more than so many noise floors is mostly due to something else. outside.
 inline constexpr double kFarAboveFloor = 3.0;
+/// A refit gives orientations a larger weight if they scatter about it by less than this share of
+/// the sigma that it used. chosen.
+inline constexpr double kSharperOrientations = 0.8;
 /// The error of orientations on unseen poses falls clearly if less than this share of it is left.
 /// chosen.
 inline constexpr double kTurnsFall = 0.95;

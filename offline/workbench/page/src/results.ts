@@ -54,6 +54,7 @@ export interface Diagnosis {
   held_out_after_rms_mm: number | null;
   held_out_before: Statistics;
   held_out_after: Statistics;
+  held_out_orientation?: { before_deg: number | null; after_deg: number | null; noise_floor_deg: number | null };
   added: {
     effect: string;
     joints: string[];
