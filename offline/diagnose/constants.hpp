@@ -72,6 +72,9 @@ inline constexpr double kFarAboveFloor = 3.0;
 /// A refit gives orientations a larger weight if they scatter about it by less than this share of
 /// the sigma that it used. chosen.
 inline constexpr double kSharperOrientations = 0.8;
+/// Standard errors of the folds by which the error of the points rises where they speak against an
+/// effect that orientations show. chosen.
+inline constexpr double kSpeaksAgainst = 2.0;
 /// The error of orientations on unseen poses falls clearly if less than this share of it is left.
 /// chosen.
 inline constexpr double kTurnsFall = 0.95;

@@ -148,6 +148,49 @@ bool judgeable(const WhitenedFit& whitened) {
   return static_cast<double>(whitened.fit_lines - whitened.rank) >= kFewestFreeLines;
 }
 
+/// The model as it is, and what is seen in its residuals.
+struct Looked {
+  Calibration base;
+  WhitenedFit plain;
+  JudgedFit at;
+};
+
+Looked looked(const Work& w, const Cell& cell) {
+  Looked out{calibrate(cell, w.measured, w.choosing), {}, {}};
+  tell_step(w.request, 1);
+  out.plain = make_whitened_fit(cell, w.measured, out.base,
+                                without_outliers(w.choosing, out.base.outliers), w.held);
+  out.at = judged(out.plain, w.not_testable, {});
+  return out;
+}
+
+/// Gravity in another direction than stated, decided by the points alone: errors of orientations
+/// that repeats do not show may look like any load.
+std::optional<UnderOtherGravity> gravity_by_points(const Work& w, const Looked& seen) {
+  const auto decided = [&](const Cell& cell, const Looked& by) {
+    return under_other_gravity(cell, w.measured, by.base, w.choosing, w.held, by.plain, by.at,
+                               w.not_testable);
+  };
+  if (!seen.plain.turns()) return decided(w.cell, seen);
+  Cell points = w.cell;
+  points.measurement.sigma_rad.reset();
+  return decided(points, looked(w, points));
+}
+
+/// Takes over the gravity that was found.
+void look_under(UnderOtherGravity turned, Work& w, Looked& seen) {
+  w.cell.gravity = turned.gravity.found;
+  if (seen.plain.turns()) {
+    seen = looked(w, w.cell);
+    return;
+  }
+  seen.base = std::move(turned.calibration);
+  seen.at = std::move(turned.judged);
+  seen.at.whitened.cell = &w.cell;
+  seen.plain = make_whitened_fit(w.cell, w.measured, seen.base,
+                                 without_outliers(w.choosing, seen.base.outliers), w.held);
+}
+
 /// The facts that are known after the first scan.
 Facts facts_of(const Scan& look, const WhitenedFit& whitened, const Calibration& calibration) {
   const auto is_one = [&](const Found& f) {
@@ -383,26 +426,15 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
       w.excluded.push_back(answer);
     }
   tell_step(request, 0);
-  Calibration base = calibrate(w.cell, measured, w.choosing);
-  tell_step(request, 1);
-  const auto rows = without_outliers(w.choosing, base.outliers);
-  WhitenedFit plain = make_whitened_fit(w.cell, measured, base, rows, w.held);
-  JudgedFit at = judged(plain, w.not_testable, {});
-  std::optional<UnderOtherGravity> turned;
-  if (judgeable(at.whitened))
-    turned =
-        under_other_gravity(w.cell, measured, base, w.choosing, w.held, plain, at, w.not_testable);
-  if (turned) {
-    out.gravity = turned->gravity;
-    if (turned->gravity.certain) {
-      w.cell.gravity = turned->gravity.found;
-      base = std::move(turned->calibration);
-      at = std::move(turned->judged);
-      at.whitened.cell = &w.cell;
-      plain = make_whitened_fit(w.cell, measured, base, without_outliers(w.choosing, base.outliers),
-                                w.held);
+  Looked seen = looked(w, w.cell);
+  if (judgeable(seen.at.whitened))
+    if (auto turned = gravity_by_points(w, seen)) {
+      out.gravity = turned->gravity;
+      if (turned->gravity.certain) look_under(*std::move(turned), w, seen);
     }
-  }
+  Calibration& base = seen.base;
+  WhitenedFit& plain = seen.plain;
+  JudgedFit& at = seen.at;
   const WhitenedFit& whitened = at.whitened;
   if (judgeable(whitened)) add_series_of_all(whitened, base, w.not_testable, at.look);
   const Scan& first = at.look;
@@ -439,7 +471,8 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   w.bad.rows = held.bad_rows(w.bad.sigma_m);
   out.before = out.after = held.stats(w.bad);
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
-  if (const OrientationFloor floor = orientation_floor(w.cell, measured); floor.known()) {
+  if (seen.plain.turns()) {
+    const OrientationFloor floor = orientation_floor(cell, measured);
     out.turns = FoundTurns{floor, held.turn_stats(), {}, {}};
     judge_turns(w, held, present, *out.turns);
   }

@@ -33,11 +33,12 @@ std::string degrees_text(double rad) {
   return fmt::format("{:.4f} deg", rad * 180.0 / std::numbers::pi);
 }
 
-/// "orientations miss by 0.0110 deg, 6.0 times their noise floor 0.0018 deg"
+/// "orientations miss by 0.0110 deg, 6.0 times their noise floor 0.0018 deg".
 std::string turned_words(const FoundTurns& turns) {
-  return fmt::format("orientations miss by {}, {:.1f} times their noise floor {}",
-                     degrees_text(turns.after.mean), turns.excess->times,
-                     degrees_text(turns.floor.mean_rad));
+  return fmt::format(
+      "orientations miss by {}, {:.1f} times their noise floor {}{}",
+      degrees_text(turns.after.mean), turns.excess->times, degrees_text(turns.floor.mean_rad),
+      turns.floor.source == NoiseFloor::Source::kSigma ? " of the stated sigma" : "");
 }
 
 /// ", orientations 0.0110 deg -> 0.0020 deg"; empty where none are fitted.
@@ -83,8 +84,8 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held, Held said
         out, d.held_out_excess->times, floor);
   if (turned(d))
     return fmt::format(
-        "{}; {}{}; but {}: something turns the tool that these poses do not name; more "
-        "poses may show it",
+        "{}; {}{}; but {}: something turns the tool that these poses do not name, or "
+        "the orientations have errors that repeats do not show",
         out, error, floor, turned_words(*d.turns));
   if (d.held_out_excess && d.held_out_excess->few_poses())
     return fmt::format(
@@ -102,14 +103,12 @@ std::string fall_words(double before_m, double after_m) {
                      mm(after_m));
 }
 
-/// The same of the first candidate. Where orientations alone show it, they are named.
+/// The same of the first candidate, with what it does to orientations.
 std::string fall_words(const Diagnosis& d, const Candidate& c) {
-  if (falls(d.before.mean, c.alone.mean) || !helps(d, c))
-    return fall_words(d.before.mean, c.alone.mean);
-  return fmt::format(
-      "the orientation error on unseen poses {:.4f} -> {}, that of positions {} -> {}",
-      d.turns->before.mean * 180.0 / std::numbers::pi, degrees_text(c.alone_turns.mean),
-      digits_mm(d.before.mean), mm(c.alone.mean));
+  if (!d.turns || !helps(d, c)) return fall_words(d.before.mean, c.alone.mean);
+  return fmt::format("{} -> {} on unseen poses, orientations {} -> {}", digits_mm(d.before.mean),
+                     mm(c.alone.mean), degrees_text(d.turns->before.mean),
+                     degrees_text(c.alone_turns.mean));
 }
 
 /// ", or a law that these poses cannot show: bending of links (link_flexure:J2) (no mass is

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/held_out.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "diagnose/constants.hpp"
 #include "noise/usual_errors.hpp"
 
 namespace plumb::offline {
@@ -113,6 +115,33 @@ Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds) {
     after.push_back(squared_error(s, s.folds[f], left_in_fold(scorer, f, in_folds)));
   }
   return gain_of(before, after);
+}
+
+bool shown_by_points_or_turns(const Scorer& scorer, const Regressor& regressor,
+                              const RegressorScore& scored) {
+  const WhitenedFit& s = scorer.whitened();
+  const std::size_t count = s.folds.size();
+  const CandidateInFolds same{std::vector<Regressor>(count, regressor),
+                              std::vector<RegressorScore>(count, scored)};
+  const auto squares = [](const std::vector<double>& norms) {
+    double out = 0.0;
+    for (const double norm : norms) out += norm * norm;
+    return out;
+  };
+  Eigen::ArrayXd better(static_cast<Eigen::Index>(count));  // sums of squares of the points
+  double turns_before = 0.0, turns_after = 0.0;
+  for (std::size_t f = 0; f < count; ++f) {
+    Norms without, with;
+    without.add(s, s.folds[f], left_in_fold(scorer, f));
+    with.add(s, s.folds[f], left_in_fold(scorer, f, same));
+    better(static_cast<Eigen::Index>(f)) = squares(without.points_m) - squares(with.points_m);
+    turns_before += squares(without.turns_rad);
+    turns_after += squares(with.turns_rad);
+  }
+  const double n = static_cast<double>(count), mean = better.mean();
+  const double se = std::sqrt((better - mean).square().sum() / std::max(1.0, n - 1.0) / n);
+  if (mean < -kSpeaksAgainst * se) return false;
+  return mean > se || std::sqrt(turns_after) < kTurnsFall * std::sqrt(turns_before);
 }
 
 }  // namespace plumb::offline

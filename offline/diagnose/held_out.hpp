@@ -36,4 +36,11 @@ HeldOutError held_out_error(const Scorer& scorer, const Regressor& regressor,
 /// the folds.
 Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds);
 
+/// Whether points or orientations show a candidate each by itself: the held-out error of the points
+/// falls by more than one standard error of the folds, or that of the orientations clearly while
+/// the points do not speak against it. Else orientations show something that is no motion of the
+/// arm: errors of their own, which repeats need not show.
+bool shown_by_points_or_turns(const Scorer& scorer, const Regressor& regressor,
+                              const RegressorScore& scored);
+
 }  // namespace plumb::offline

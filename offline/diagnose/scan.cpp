@@ -13,6 +13,7 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/few_digits.hpp"
+#include "diagnose/held_out.hpp"
 #include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
 #include "diagnose/series_scan.hpp"
@@ -293,6 +294,14 @@ void sort_by_evidence(Scan& out) {
                    [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
 }
 
+/// Where orientations are measured, points or orientations must show an effect by themselves.
+void drop_what_neither_shows(const Scorer& scorer, Scan& out) {
+  for (auto& found : out.library)
+    if (found.score > kSupported && found.gain.clear &&
+        !shown_by_points_or_turns(scorer, regressor_of(scorer.whitened(), found), found.scored))
+      found.gain.clear = false;
+}
+
 }  // namespace
 
 const Found* Scan::supported(const std::function<bool(const Found&)>& also) const {
@@ -387,6 +396,7 @@ Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testa
       out.library.push_back(std::move(*series));
       sort_by_evidence(out);
     }
+  if (whitened.turns()) drop_what_neither_shows(scorer, out);
   return out;
 }
 

@@ -362,7 +362,7 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   out.fit = stats_of(measured, final_points, fit);
   out.predicted_M = std::move(predicted.full);
   out.floor = noise_floor(cell, measured, final_model.calibration.state);
-  out.turn_floor = orientation_floor(cell, measured);
+  if (cell.measurement.sigma_rad) out.turn_floor = orientation_floor(stated, measured);
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
   out.still = still_joints(cell, measured, fit);
