@@ -93,12 +93,12 @@ bool turned(const Fit& fit) {
 std::string turned_words(const Fit& fit) {
   const bool stated = fit.turn_floor.source == NoiseFloor::Source::kSigma;
   return fmt::format(
-      "orientations miss by {}, {:.1f} times their noise floor {}{}: something that turns the tool "
-      "is missing, or {}",
-      deg(fit.turn_held.mean), turn_excess_of(fit)->times, deg(fit.turn_floor.mean_rad),
-      stated ? " of the stated sigma" : "",
-      stated ? "they scatter by more than sigma_urad says; repeats of some poses would tell"
-             : "they have errors of their own that repeats do not show");
+      "orientations miss by {}, {:.1f} times their noise floor {}{}", deg(fit.turn_held.mean),
+      turn_excess_of(fit)->times, deg(fit.turn_floor.mean_rad),
+      stated ? " of the stated sigma: they scatter by more than sigma_urad says, or something that "
+               "turns the tool is missing; repeats of some poses would tell"
+             : ": something that turns the tool is missing, or they have errors of their own that "
+               "repeats do not show");
 }
 
 Quality quality_within(const Fit& fit) {
