@@ -12,6 +12,7 @@
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/measured_orientations.hpp"
 #include "program/file.hpp"
 
 namespace plumb::tests {
@@ -44,6 +45,7 @@ double true_error(ArmState arm, const Simulation& fresh) {
 ArmState fitted(const Seen& seen, const std::vector<EffectEntry>& effects) {
   Cell cell = seen.cell;
   cell.effects = effects;
+  cell = as_judged(cell, seen.measured);
   std::vector<int> rows(static_cast<std::size_t>(seen.measured.size()));
   std::iota(rows.begin(), rows.end(), 0);
   return calibrate(cell, seen.measured, rows).state;

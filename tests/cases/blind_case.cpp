@@ -2,6 +2,7 @@
 #include "tests/cases/blind_case.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "simulate/law_list.hpp"
@@ -142,6 +143,7 @@ SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
   plan.revisits = request.revisits;
   plan.imperfections = request.imperfections;
   plan.noise_m = request.sigma_m;
+  if (request.turns) plan.noise_rad = request.turns->times * request.turns->sigma_rad;
   plan.directions = request.directions;
   plan.temperatures = request.temperatures;
   plan.climate = request.climate;
@@ -197,6 +199,7 @@ SimulationPlan fresh_plan(const BlindRequest& request, const Cell& cell, Simulat
   plan.imperfections.joint_scatter.clear();
   plan.imperfections.encoder_step = 0.0;
   plan.noise_m = 0.0;
+  plan.noise_rad.reset();
   plan.outlier_share = plan.held_share = 0.0;
   plan.seconds_per_pose = request.session_s / std::max(request.fresh_poses, 1);
   choose_poses(request, cell, plan);
@@ -210,6 +213,28 @@ std::vector<HiddenEffect> of_the_arm(const std::vector<HiddenEffect>& effects) {
     return domain == Domain::kRobot || domain == Domain::kEnvironment;
   });
   return out;
+}
+
+// Turns every measured orientation by a smooth function of the place, as a bent lens does.
+void turn_by_place(double usual_rad, Random random, Measurements& m) {
+  constexpr int kTerms = 6;
+  Eigen::Matrix<double, 3, kTerms> by;
+  for (double& one : by.reshaped()) one = random.normal();
+  const Vector3d middle = m.p_M.colwise().mean().transpose();
+  Eigen::Matrix<double, 3, Eigen::Dynamic> turn(3, m.size());
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const Vector3d d = m.p_M.row(i).transpose() - middle;
+    Eigen::Matrix<double, kTerms, 1> terms;
+    terms << d.x(), d.y(), d.z(), d.x() * d.y(), d.y() * d.z(), std::sin(2.0 * d.x());
+    turn.col(i) = by * terms;
+  }
+  turn *= usual_rad * std::sqrt(static_cast<double>(m.size())) / turn.norm();
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const auto was = m.quat_M.row(i);
+    const Eigen::Quaterniond q = Eigen::AngleAxisd(turn.col(i).norm(), turn.col(i).normalized()) *
+                                 Eigen::Quaterniond(was(0), was(1), was(2), was(3));
+    m.quat_M.row(i) << q.w(), q.x(), q.y(), q.z();
+  }
 }
 
 // Measures with the same context columns as `like`, whatever effects act.
@@ -229,10 +254,14 @@ BlindCase make_blind_case(const BlindRequest& request) {
   BlindCase out;
   Cell cell = cell_of(request);
   cell.measurement.sigma_m = request.sigma_m;
+  if (request.turns) cell.measurement.sigma_rad = request.turns->sigma_rad;
   cell.measurement.files = {"measurements.csv"};
   out.cell = stated(cell, request.masses);
   const SimulationPlan plan = along_a_path(request, cell, plan_of(request, cell));
   out.measured = simulate(cell, plan);
+  if (request.turns && request.turns->by_place_rad > 0.0)
+    turn_by_place(request.turns->by_place_rad, {request.seed, "orientations by place"},
+                  out.measured.measured);
   const auto again = [&](const SimulationPlan& fresh) {
     return measured_again(cell, fresh, out.measured);
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,20 @@ enum class StatedMasses {
   kNone
 };
 
+/// Orientations that are measured beside the points.
+struct MeasuredTurns {
+  double sigma_rad = 20e-6;  // 1 sigma per axis, as the cell states it
+  double times = 1.0;        // they scatter by so many times that
+  double by_place_rad =
+      0.0;  // and err by so much, usually, by where the reflector is: repeats agree
+};
+
 /// The settings of a blind case.
 struct BlindRequest {
   BlindArm arm = BlindArm::kHeavy;
   std::vector<std::string> effects;  // in the form of parse_hidden_effect: "gear_ripple:J2:5"
   double sigma_m = 20e-6;            // of the tracker, per axis
+  std::optional<MeasuredTurns> turns;
   int poses = 150;
   int fresh_poses = 500;
   int repeats = 3;   // readings of every tenth pose
