@@ -48,7 +48,8 @@ std::optional<double> orientation_scatter(const Measurements& measured,
 OrientationFloor orientation_floor(const Cell& cell, const Measurements& measured) {
   OrientationFloor out;
   if (!measured.has_orientation() || !cell.measurement.sigma_rad) return out;
-  if (const auto repeats = orientation_scatter(measured, repeat_groups(measured))) {
+  const auto repeats = orientation_scatter(measured, repeat_groups(measured));
+  if (repeats && *repeats > 0.0) {
     out.source = NoiseFloor::Source::kRepeats;
     out.sigma_rad = *repeats;
   } else {

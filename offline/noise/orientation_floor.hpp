@@ -29,8 +29,8 @@ struct OrientationFloor {
 };
 
 /// From repeats of a pose under one context (repeat_groups.hpp) if there are at least five pairs of
-/// them; else from the sigma of the cell. None where orientations are not measured or not used.
-/// Cost: rows.
+/// them and they differ at all, which rounded ones need not; else from the sigma of the cell. None
+/// where orientations are not measured or not used. Cost: rows.
 OrientationFloor orientation_floor(const Cell& cell, const Measurements& measured);
 
 }  // namespace plumb::offline

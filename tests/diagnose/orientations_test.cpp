@@ -79,6 +79,12 @@ TEST(OrientationFloor, IsTheScatterOfRepeatsAndNotWhatTheModelLacks) {
   EXPECT_NEAR(floor.mean_rad, 1.596 * floor.sigma_rad, 1e-3 * floor.sigma_rad);
   const Turned once({}, kNoise_rad, 1);
   EXPECT_EQ(orientation_floor(once.cell, once.measured).source, NoiseFloor::Source::kSigma);
+  Turned rounded({});
+  const std::vector<int>& group = rounded.measured.replicate_group;
+  for (Eigen::Index i = 1; i < rounded.measured.size(); ++i)
+    if (group[static_cast<std::size_t>(i)] == group[static_cast<std::size_t>(i - 1)])
+      rounded.measured.quat_M.row(i) = rounded.measured.quat_M.row(i - 1);
+  EXPECT_EQ(orientation_floor(rounded.cell, rounded.measured).source, NoiseFloor::Source::kSigma);
   Cell unused = made.cell;
   unused.measurement.sigma_rad.reset();
   EXPECT_FALSE(orientation_floor(unused, made.measured).known());
