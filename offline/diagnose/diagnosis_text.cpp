@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
@@ -29,23 +28,11 @@ constexpr std::size_t kAlternativesShown = 3;
 
 std::string mm(double metres) { return digits_mm(metres) + " mm"; }
 
-std::string degrees_text(double rad) {
-  return fmt::format("{:.4f} deg", rad * 180.0 / std::numbers::pi);
-}
-
-/// "orientations miss by 0.0110 deg, 6.0 times their noise floor 0.0018 deg".
-std::string turned_words(const FoundTurns& turns) {
-  return fmt::format(
-      "orientations miss by {}, {:.1f} times their noise floor {}{}",
-      degrees_text(turns.after.mean), turns.excess->times, degrees_text(turns.floor.mean_rad),
-      turns.floor.source == NoiseFloor::Source::kSigma ? " of the stated sigma" : "");
-}
-
 /// ", orientations 0.0110 deg -> 0.0020 deg"; empty where none are fitted.
 std::string turns_fall(const Diagnosis& d) {
   if (!d.turns) return {};
-  return fmt::format(", orientations {} -> {}", degrees_text(d.turns->before.mean),
-                     degrees_text(d.turns->after.mean));
+  return fmt::format(", orientations {} -> {}", angle_words(d.turns->before.mean),
+                     angle_words(d.turns->after.mean));
 }
 
 /// What the joints scatter, as a sentence of its own; empty: nothing is seen of it.
@@ -86,7 +73,7 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held, Held said
     return fmt::format(
         "{}; {}{}; but {}: something turns the tool that these poses do not name, or "
         "the orientations have errors that repeats do not show",
-        out, error, floor, turned_words(*d.turns));
+        out, error, floor, missed_words(d.turns->after.mean, d.turns->floor));
   if (d.held_out_excess && d.held_out_excess->few_poses())
     return fmt::format(
         "{}; {}{} (so few poses leave up to {:.1f} times that even "
@@ -107,8 +94,8 @@ std::string fall_words(double before_m, double after_m) {
 std::string fall_words(const Diagnosis& d, const Candidate& c) {
   if (!d.turns || !helps(d, c)) return fall_words(d.before.mean, c.alone.mean);
   return fmt::format("{} -> {} on unseen poses, orientations {} -> {}", digits_mm(d.before.mean),
-                     mm(c.alone.mean), degrees_text(d.turns->before.mean),
-                     degrees_text(c.alone_turns.mean));
+                     mm(c.alone.mean), angle_words(d.turns->before.mean),
+                     angle_words(c.alone_turns.mean));
 }
 
 /// ", or a law that these poses cannot show: bending of links (link_flexure:J2) (no mass is

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "fit/constants.hpp"
 #include "noise/usual_errors.hpp"
@@ -15,7 +14,6 @@ namespace {
 
 constexpr std::size_t kNamed = 3;  // readings that stand out, in a headline
 
-std::string deg(double rad) { return fmt::format("{:.4f} deg", rad * 180.0 / std::numbers::pi); }
 std::string mm(double m) { return fmt::format("{:.3f} mm", m * 1e3); }
 
 std::string readings(int n) { return counted_words(n, "reading", "readings"); }
@@ -88,17 +86,16 @@ bool turned(const Fit& fit) {
   return excess && excess->lack_of_fit();
 }
 
-/// "orientations miss by 0.0110 deg, 6.0 times their noise floor 0.0018 deg: something that turns
-/// the tool is missing, or ...".
+/// How far the orientations miss, and what that may be.
 std::string turned_words(const Fit& fit) {
-  const bool stated = fit.turn_floor.source == NoiseFloor::Source::kSigma;
-  return fmt::format(
-      "orientations miss by {}, {:.1f} times their noise floor {}{}", deg(fit.turn_held.mean),
-      turn_excess_of(fit)->times, deg(fit.turn_floor.mean_rad),
-      stated ? " of the stated sigma: they scatter by more than sigma_urad says, or something that "
-               "turns the tool is missing; repeats of some poses would tell"
-             : ": something that turns the tool is missing, or they have errors of their own that "
-               "repeats do not show");
+  const std::string missed = missed_words(fit.turn_held.mean, fit.turn_floor);
+  return fit.turn_floor.source == NoiseFloor::Source::kSigma
+             ? missed +
+                   ": they scatter by more than sigma_urad says, or something that turns the tool "
+                   "is missing; repeats of some poses would tell"
+             : missed +
+                   ": something that turns the tool is missing, or they have errors of their own "
+                   "that repeats do not show";
 }
 
 Quality quality_within(const Fit& fit) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noise/orientation_floor.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <numeric>
+#include <numbers>
 #include <span>
 
 #include "cell/group_rows.hpp"
@@ -58,6 +60,16 @@ OrientationFloor orientation_floor(const Cell& cell, const Measurements& measure
   }
   out.mean_rad = mean_norm(3) * out.sigma_rad;
   return out;
+}
+
+std::string angle_words(double rad) {
+  return fmt::format("{:.4f} deg", rad * 180.0 / std::numbers::pi);
+}
+
+std::string missed_words(double mean_rad, const OrientationFloor& floor) {
+  return fmt::format("orientations miss by {}, {:.1f} times their noise floor {}{}",
+                     angle_words(mean_rad), mean_rad / floor.mean_rad, angle_words(floor.mean_rad),
+                     floor.source == NoiseFloor::Source::kSigma ? " of the stated sigma" : "");
 }
 
 }  // namespace plumb::offline
