@@ -111,6 +111,7 @@ void describe(Fields& fields, typename Fields::template Of<FoundTurns>& turns) {
   fields("floor", turns.floor);
   fields("before", turns.before);
   fields("after", turns.after);
+  fields("refused", turns.refused);
 }
 
 template <class Fields>

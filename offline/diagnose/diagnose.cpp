@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "cell/effects_edit.hpp"
@@ -22,6 +21,7 @@
 #include "diagnose/model_parts.hpp"
 #include "diagnose/other_gravity.hpp"
 #include "diagnose/refit.hpp"
+#include "diagnose/refused_steps.hpp"
 #include "diagnose/series_of_all.hpp"
 #include "diagnose/sharpen_steps.hpp"
 #include "effects/registry.hpp"
@@ -109,22 +109,24 @@ HeldOutPredictions nested_held_out(const Work& w) {
   return out;
 }
 
+/// What the number of fitted parameters makes inevitable [noise floors].
+double unavoidable(const Work& w, const Calibration& fitted) {
+  return unavoidable_ratio(fitted_coordinates(w.measured, w.split),
+                           fitted.decided + fitted.series_dof);
+}
+
 /// The held-out error compared with what noise and the number of fitted parameters make inevitable.
 std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOutPredictions& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
-  return held_out_excess(held.stats(w.bad).mean, floor,
-                         unavoidable_ratio(fitted_coordinates(w.measured, w.split),
-                                           fitted.decided + fitted.series_dof));
+  return held_out_excess(held.stats(w.bad).mean, floor, unavoidable(w, fitted));
 }
 
 /// The orientations at the end, where the fit uses them.
 void judge_turns(const Work& w, const HeldOutPredictions& held, const Calibration& fitted,
                  FoundTurns& out) {
   out.after = held.turn_stats();
-  out.excess = held_out_excess(out.after.mean, out.floor,
-                               unavoidable_ratio(fitted_coordinates(w.measured, w.split),
-                                                 fitted.decided + fitted.series_dof));
+  out.excess = held_out_excess(out.after.mean, out.floor, unavoidable(w, fitted));
 }
 
 /// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.
@@ -216,58 +218,6 @@ void say_what_was_not_judged(const ForwardSelection& found, Diagnosis& out) {
        .help = "plumb explain W-DIAGNOSE-UNJUDGED"});
 }
 
-/// How many of the steps are kept. They were selected by the fitted readings; the held-out readings
-/// can only refuse them: where the held-out error leaps, or ends clearly above its minimum, the
-/// steps after the minimum are dropped.
-///
-/// @param before, errors  As `counted_m`: at the start, and after each step.
-std::size_t steps_kept(double before, const std::vector<double>& errors) {
-  // The error may rise for a while, until later effects bring it down again.
-  if (errors.empty() ||
-      errors.back() <=
-          std::min(before, kMostRise * *std::min_element(errors.begin(), errors.end())))
-    return errors.size();
-  double least = before;
-  std::size_t kept = 0, seen = 0;
-  while (seen < errors.size() && errors[seen] <= kLeap * least) {
-    if (errors[seen] < least) {
-      least = errors[seen];
-      kept = seen + 1;
-    }
-    ++seen;
-  }
-  const bool sound = seen == errors.size() && errors.back() <= kMostRise * least;
-  return sound ? errors.size() : kept;
-}
-
-/// An error of points [m] and of orientations [rad] as one: the latter in their noise floors.
-double counted_m(const Diagnosis& d, double points_m, double turns_rad) {
-  if (!d.turns || !(d.floor.mean_m > 0.0) || !(d.turns->floor.mean_rad > 0.0)) return points_m;
-  return std::hypot(points_m, turns_rad * d.floor.mean_m / d.turns->floor.mean_rad);
-}
-
-/// Whether the selection, repeated without each fold, raises the held-out error: its mean, or by
-/// single large errors its RMS.
-bool rises_over(const Diagnosis& d, const HeldOutPredictions& held, const BadRows& bad) {
-  const ErrorStats after = held.stats(bad), turns = held.turn_stats();
-  const ErrorStats before = d.turns ? d.turns->before : ErrorStats{};
-  return counted_m(d, after.mean, turns.mean) > counted_m(d, d.before.mean, before.mean) ||
-         counted_m(d, after.rms, turns.rms) > counted_m(d, d.before.rms, before.rms);
-}
-
-void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, std::size_t kept,
-                          double least_m, double rose_to_m, Diagnosis& out) {
-  std::vector<std::string> names;
-  for (std::size_t i = kept; i < added.size(); ++i) names.push_back(key_of(cell, added[i].entry));
-  out.remarks.push_back(
-      {.severity = Severity::kWarning,
-       .code = "W-DIAGNOSE-ROSE",
-       .message = fmt::format("not added, though the fitted readings speak for it: {}; the error "
-                              "on unseen poses rose from {:.3f} to {:.3f} mm",
-                              fmt::join(names, ", "), least_m * 1e3, rose_to_m * 1e3),
-       .help = "plumb explain W-DIAGNOSE-ROSE"});
-}
-
 /// Refits the final model, selected by some of the readings, to all of them.
 void fit_to_all(const Work& w, std::vector<ForwardStep>& steps) {
   sharpen_steps(w.cell, w.measured, {w.choosing, w.fit}, steps);
@@ -314,20 +264,21 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   }
   std::optional<HeldOutPredictions> nested;
   if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
-  const bool rises = nested && rises_over(out, *nested, w.bad);
-  std::vector<double> errors;
-  for (const Addition& one : out.added)
-    errors.push_back(counted_m(out, one.held.mean, one.turns.mean));
-  const double before_m = counted_m(out, out.before.mean, out.turns ? out.turns->before.mean : 0.0);
-  const std::size_t kept = rises ? 0 : steps_kept(before_m, errors);
+  const auto error_of = [&w](const HeldOutPredictions& held) {
+    return HeldOutError{held.stats(w.bad), held.turn_stats()};
+  };
+  const bool rises = nested && rises_over(out, error_of(*nested));
+  const std::size_t kept = rises ? 0 : steps_kept(out);
   const bool refused = kept < out.added.size();
   // Where only what was found beside an undecided finding is refused, that finding is left.
   const bool undecided_is_left = refused && found.at_first && kept >= found.at_first->steps;
-  if (rises && !undecided_is_left) out.refused = nested->stats(w.bad);
+  if (rises && !undecided_is_left) {
+    out.refused = nested->stats(w.bad);
+    if (out.turns) out.turns->refused = nested->turn_stats();
+  }
   if (refused) {
-    say_what_was_refused(w.cell, out.added, kept,
-                         kept == 0 ? out.before.mean : out.added[kept - 1].held.mean,
-                         rises ? nested->stats(w.bad).mean : out.added[kept].held.mean, out);
+    out.remarks.push_back(
+        refusal(w.cell, out, kept, rises ? error_of(*nested) : error_after(out, kept + 1)));
     out.added.erase(out.added.begin() + static_cast<std::ptrdiff_t>(kept), out.added.end());
     found.steps.erase(found.steps.begin() + static_cast<std::ptrdiff_t>(kept), found.steps.end());
     held_by_step.erase(held_by_step.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -432,8 +383,8 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
       out.gravity = turned->gravity;
       if (turned->gravity.certain) look_under(*std::move(turned), w, seen);
     }
-  Calibration& base = seen.base;
-  WhitenedFit& plain = seen.plain;
+  const Calibration& base = seen.base;
+  const WhitenedFit& plain = seen.plain;
   JudgedFit& at = seen.at;
   const WhitenedFit& whitened = at.whitened;
   if (judgeable(whitened)) add_series_of_all(whitened, base, w.not_testable, at.look);
@@ -473,7 +424,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
   if (seen.plain.turns()) {
     const OrientationFloor floor = orientation_floor(cell, measured);
-    out.turns = FoundTurns{floor, held.turn_stats(), {}, {}};
+    out.turns = FoundTurns{floor, held.turn_stats(), {}, {}, {}};
     judge_turns(w, held, present, *out.turns);
   }
   out.effects = w.cell.effects;

@@ -118,6 +118,7 @@ struct Undecided {
 struct FoundTurns {
   OrientationFloor floor;
   ErrorStats before, after;             // held out [rad]
+  ErrorStats refused;                   // beside Diagnosis::refused
   std::optional<HeldOutExcess> excess;  // at the end
 };
 

@@ -28,11 +28,12 @@ constexpr std::size_t kAlternativesShown = 3;
 
 std::string mm(double metres) { return digits_mm(metres) + " mm"; }
 
-/// ", orientations 0.0110 deg -> 0.0020 deg"; empty where none are fitted.
-std::string turns_fall(const Diagnosis& d) {
+/// ", orientations 0.0110 deg -> 0.0020 deg", from the start to `then`; empty where none are
+/// fitted.
+std::string turns_fall(const Diagnosis& d, ErrorStats FoundTurns::*then) {
   if (!d.turns) return {};
   return fmt::format(", orientations {} -> {}", angle_words(d.turns->before.mean),
-                     angle_words(d.turns->after.mean));
+                     angle_words((*d.turns.*then).mean));
 }
 
 /// What the joints scatter, as a sentence of its own; empty: nothing is seen of it.
@@ -248,11 +249,10 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
   if (d.refused)
     return fmt::format(
         "Undecidable: perhaps {}. The fitted poses speak for it, but chosen anew without some of "
-        "them it does not predict these better: {} -> {} on average, {} -> {} RMS, {}. More poses "
-        "would "
-        "tell.",
+        "them it does not predict these better: {} -> {} on average, {} -> {} RMS{}, {}. More "
+        "poses would tell.",
         effect, digits_mm(d.before.mean), mm(d.refused->mean), digits_mm(d.before.rms),
-        mm(d.refused->rms), floor_words(d.floor));
+        mm(d.refused->rms), turns_fall(d, &FoundTurns::refused), floor_words(d.floor));
   const bool undecidable = d.finding == Finding::kUndecidable;
   return fmt::format("{}: {}. Adding {}: {}, {}. {}",
                      undecidable                                                  ? "Undecidable"
@@ -375,11 +375,12 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
         "Nothing was added: under gravity = {} it would be another effect. Correct "
         "gravity in cell.toml first.",
         gravity_text(d.gravity->stated));
-  const std::string fall = d.added.empty()
-                               ? "Nothing was added"
-                               : fmt::format("{} added: held-out error {} -> {}{}",
-                                             counted_words(d.added.size(), "effect", "effects"),
-                                             mm(d.before.mean), mm(d.after.mean), turns_fall(d));
+  const std::string fall =
+      d.added.empty()
+          ? "Nothing was added"
+          : fmt::format("{} added: held-out error {} -> {}{}",
+                        counted_words(d.added.size(), "effect", "effects"), mm(d.before.mean),
+                        mm(d.after.mean), turns_fall(d, &FoundTurns::after));
   switch (*d.finding_after) {
     case Finding::kUnknown:
       return fmt::format("{}{}; {}: {}.", fall, unsure_words(cell, d),

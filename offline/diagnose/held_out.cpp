@@ -41,6 +41,12 @@ struct Norms {
   }
 };
 
+double sum_of_squares(const std::vector<double>& norms) {
+  double out = 0.0;
+  for (const double norm : norms) out += norm * norm;
+  return out;
+}
+
 /// Sum of the squared errors of all poses: that of the points [m^2], and each orientation counts as
 /// a point that misses by as many sigmas.
 double squared_error(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines) {
@@ -123,25 +129,20 @@ bool shown_by_points_or_turns(const Scorer& scorer, const Regressor& regressor,
   const std::size_t count = s.folds.size();
   const CandidateInFolds same{std::vector<Regressor>(count, regressor),
                               std::vector<RegressorScore>(count, scored)};
-  const auto squares = [](const std::vector<double>& norms) {
-    double out = 0.0;
-    for (const double norm : norms) out += norm * norm;
-    return out;
-  };
-  Eigen::ArrayXd better(static_cast<Eigen::Index>(count));  // sums of squares of the points
-  double turns_before = 0.0, turns_after = 0.0;
+  std::vector<double> points_before, points_after, turns_before, turns_after;
   for (std::size_t f = 0; f < count; ++f) {
     Norms without, with;
     without.add(s, s.folds[f], left_in_fold(scorer, f));
     with.add(s, s.folds[f], left_in_fold(scorer, f, same));
-    better(static_cast<Eigen::Index>(f)) = squares(without.points_m) - squares(with.points_m);
-    turns_before += squares(without.turns_rad);
-    turns_after += squares(with.turns_rad);
+    points_before.push_back(sum_of_squares(without.points_m));
+    points_after.push_back(sum_of_squares(with.points_m));
+    turns_before.push_back(sum_of_squares(without.turns_rad));
+    turns_after.push_back(sum_of_squares(with.turns_rad));
   }
-  const double n = static_cast<double>(count), mean = better.mean();
-  const double se = std::sqrt((better - mean).square().sum() / std::max(1.0, n - 1.0) / n);
-  if (mean < -kSpeaksAgainst * se) return false;
-  return mean > se || std::sqrt(turns_after) < kTurnsFall * std::sqrt(turns_before);
+  const Gain points = gain_of(points_before, points_after);
+  if (points.standard_errors < -kSpeaksAgainst) return false;
+  return points.standard_errors > 1.0 ||
+         gain_of(turns_before, turns_after).share > 1.0 - kTurnsFall;
 }
 
 }  // namespace plumb::offline

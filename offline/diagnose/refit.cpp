@@ -10,8 +10,6 @@
 #include "diagnose/constants.hpp"
 #include "fit/calibrate.hpp"
 #include "noise/orientation_floor.hpp"
-#include "numbers/quantile.hpp"
-#include "solve/constants.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -33,7 +31,7 @@ bool did_not_converge(const Failure& failure) {
 double scatter_about(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
                      const ArmState& state) {
   const Eigen::VectorXd off = turn_errors(state, pick(measured, fit));
-  return std::max(median({off.begin(), off.end()}) / kMedianChi[3],
+  return std::max(sigma_of_angles({off.begin(), off.end()}),
                   orientation_floor(cell, measured).sigma_rad);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
@@ -272,6 +273,7 @@ Gain gain_of(const std::vector<double>& before, const std::vector<double>& after
   const double spread =
       std::max(0.0, share_squares / K - share / K * share / K) * K / std::max(1.0, K - 1.0);
   out.share_se = std::sqrt(spread * (1.0 / K + 1.0 / std::max(1.0, K - 1.0)));
+  out.standard_errors = mean / std::max(se, std::numeric_limits<double>::min());
   out.clear = out.share > kClearShare && mean > se;
   return out;
 }

@@ -24,7 +24,8 @@ Products sum_of(const std::vector<Products>& segments);
 struct Gain {
   double share = 0.0;     // of the RMS
   double share_se = 0.0;  // standard error of that, as a prediction of the fall on other poses
-  bool clear = false;     // more than 1 %, and more than one standard error of the folds
+  double standard_errors = 0.0;  // of the folds, by which their sum of squares falls
+  bool clear = false;            // more than 1 %, and more than one standard error of the folds
 };
 
 /// Of sums of squares of the held-out error of each fold, without and with an effect.

@@ -70,17 +70,12 @@ std::vector<double> sigma_of_lines(const WhitenedFit& s, const Rows3& sigma_m, d
   return out;
 }
 
-/// Mean of the measured coordinates of the points.
+/// Mean of the sigmas of the measured coordinates of points [m].
 double mean_sigma(const WhitenedFit& s, const Rows3& sigma_m) {
+  const TrackerReading point(*s.measured, false);
   double sum = 0.0;
-  int count = 0;
-  for (const int row : s.row)
-    for (int k = 0; k < 3; ++k)
-      if (s.measured->has_axis[static_cast<std::size_t>(k)]) {
-        sum += sigma_m(row, k);
-        ++count;
-      }
-  return sum / std::max(1, count);
+  for (const int row : s.row) point.components([&](int k) { sum += sigma_m(row, k); });
+  return sum / static_cast<double>(std::max<std::size_t>(1, s.row.size() * point.lines()));
 }
 
 void look(const ArmState& state, WhitenedFit& out) {
@@ -116,8 +111,9 @@ void fill_carriers(WhitenedFit& s) {
     const Matrix3& R_MB = s.R_MB[static_cast<std::size_t>(i)];
     const auto& f = s.frames[i];
     const auto put = [&](const Vector3& shift, const Vector3& turn, auto&& all_lines) {
-      project(s, i, R_MB * shift, R_MB * turn,
-              all_lines.segment(s.table.begin(i), s.table.count(i)));
+      auto lines_of_pose = all_lines.segment(s.table.begin(i), s.table.count(i));
+      s.reading.project(R_MB * shift, R_MB * turn, lines_of_pose);
+      whiten(s, i, lines_of_pose);
     };
     const Vector3 target = f.tip.p + s.arm_B[i];
     for (int j = 0; j < s.joints(); ++j) {

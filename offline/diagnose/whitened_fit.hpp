@@ -105,16 +105,6 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
 /// Computes joint_square, joint_y and joint_U again.
 void fold_joints(WhitenedFit& whitened);
 
-/// Writes a motion of the reflector, as a shift [m] and a turn [rad] in the measurement frame, into
-/// the lines of one pose, in standard deviations of a reading.
-template <class Lines>
-void project(const WhitenedFit& s, Eigen::Index pose, const Vector3& shift_M, const Vector3& turn_M,
-             Lines&& lines) {
-  s.reading.project(shift_M, turn_M, lines);
-  for (Eigen::Index k = 0; k < s.table.count(pose); ++k)
-    lines(k) /= s.sigma[s.table.begin(pose) + k];
-}
-
 /// Lines of one pose: a motion [m, rad] of the measured coordinates in standard deviations, and
 /// back.
 void whiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);

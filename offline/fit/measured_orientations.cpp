@@ -68,7 +68,7 @@ std::vector<double> distances(const ToolTurns& turns, const std::vector<Matrix3>
 
 /// Robust standard deviation of the error per axis, from the median.
 double scatter(const ToolTurns& turns, const std::vector<Matrix3>& read) {
-  return median(distances(turns, read)) / kMedianChi[3];
+  return sigma_of_angles(distances(turns, read));
 }
 
 /// Fits the rotations of the targets to the readings, in the second round without rows that are far

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "cell/group_rows.hpp"
 #include "noise/constants.hpp"
@@ -21,6 +22,10 @@ std::vector<Matrix3> rotations_of(const Rows4& quat) {
   for (Eigen::Index i = 0; i < quat.rows(); ++i)
     out.push_back(from_pose({{}, {quat(i, 0), quat(i, 1), quat(i, 2), quat(i, 3)}}).R);
   return out;
+}
+
+double sigma_of_angles(std::vector<double> angles_rad) {
+  return median(std::move(angles_rad)) / kMedianChi[3];
 }
 
 std::optional<double> orientation_scatter(const Measurements& measured,
@@ -44,7 +49,7 @@ std::optional<double> orientation_scatter(const Measurements& measured,
     }
   });
   if (off.size() < kFewestOrientationPairs) return std::nullopt;
-  return median(off) / kMedianChi[3];
+  return sigma_of_angles(std::move(off));
 }
 
 OrientationFloor orientation_floor(const Cell& cell, const Measurements& measured) {

@@ -15,7 +15,10 @@ namespace plumb::offline {
 /// Measured orientations as matrices, row by row.
 std::vector<Matrix3> rotations_of(const Rows4& quat);
 
-/// Robust standard deviation about each axis between readings of one group [rad], from the median
+/// Robust standard deviation about each axis of rotations by these angles [rad], from their median.
+double sigma_of_angles(std::vector<double> angles_rad);
+
+/// Standard deviation about each axis between readings of one group [rad], from the median
 /// of pairs; nothing if there are fewer than five pairs. Readings equal to each other are copies
 /// and no repeats.
 std::optional<double> orientation_scatter(const Measurements& measured,

@@ -21,6 +21,10 @@ std::vector<std::string> row(const std::string& name, const ErrorStats& s,
           mm(s.max)};
 }
 
+const char* floor_label(NoiseFloor::Source source) {
+  return source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated" : "noise floor";
+}
+
 Table turn_table(const ErrorStats& s, const OrientationFloor& floor) {
   Table table{.name = "orientations",
               .caption = "Orientation errors, measured - predicted [deg]",
@@ -30,10 +34,7 @@ Table turn_table(const ErrorStats& s, const OrientationFloor& floor) {
   const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
              deg(s.max)});
-  if (floor.known())
-    table.add({floor.source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated"
-                                                          : "noise floor",
-               "", deg(floor.mean_rad)});
+  if (floor.known()) table.add({floor_label(floor.source), "", deg(floor.mean_rad)});
   return table;
 }
 
@@ -46,8 +47,7 @@ const char* fit_row_name(const Fit& fit) {
 std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor) {
   if (floor.source == NoiseFloor::Source::kNone) return {{"noise floor: unknown"}};
   std::vector<std::vector<std::string>> out{
-      {floor.source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated" : "noise floor",
-       "", mm(floor.mean_m), "", mm(floor.rms_m)}};
+      {floor_label(floor.source), "", mm(floor.mean_m), "", mm(floor.rms_m)}};
   if (floor.inferred_m > 0.0)
     out.push_back({"  inferred, if the joints scatter", "", mm(floor.inferred_m)});
   return out;
