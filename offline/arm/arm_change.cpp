@@ -55,6 +55,9 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
       case Kind::kTarget:
         out.target(p.setup).p[p.component] += change(i);
         break;
+      case Kind::kPoint:
+        out.frame(p.setup).p[p.component] -= change(i);
+        break;
       case Kind::kFrame:
       case Kind::kTargetRotation:
       case Kind::kEffect:
@@ -91,6 +94,9 @@ double value_of(const ArmState& state, const Parameter& parameter) {
     case Kind::kFrame:
       if (parameter.component < 3) return state.frame(parameter.setup).p[parameter.component];
       return rotation_vector(from_pose(state.frame(parameter.setup)).R)(parameter.component - 3);
+    case Kind::kPoint:
+      // The frame has the axes of the base and stands in the point.
+      return -state.frame(parameter.setup).p[parameter.component];
     case Kind::kTargetRotation:
       return rotation_vector(from_pose(state.target(parameter.setup)).R)(parameter.component);
     default:

@@ -61,6 +61,8 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
           {kSlotFrame, shift ? Vector3(R_MB0 * axis(p.component)) : Vector3::Zero(),
            shift ? Vector3::Zero() : Vector3(frame_turns[p.setup] * axis(p.component - 3)),
            p.setup});
+    } else if (p.kind == Kind::kPoint) {
+      twists_.push_back({kSlotFrame, -axis(p.component), Vector3::Zero(), p.setup});
     } else if (p.kind == Kind::kTarget) {
       twists_.push_back({kSlotTarget, axis(p.component), Vector3::Zero(), p.setup});
     } else if (p.kind == Kind::kTargetRotation) {

@@ -65,10 +65,12 @@ void add_placing_candidates(const MeasurementSettings& m, Orientation orientatio
     const Setup rule = setup_rule(m, s);
     const std::string of = of_setup(m, s);
     const auto add = [&](Kind kind, int component, const char* pose_name) {
-      const char* what = kind == Kind::kFrame ? "frame" : "target";
+      const char* what = kind == Kind::kFrame ? "frame" : kind == Kind::kPoint ? "point" : "target";
       out.push_back({kind, 0, component, what + of + pose_name, s});
     };
-    if (rule.fit_frame && frame_root(m, s) == s)
+    if (rule.is_point)
+      for (int k = 0; k < 3; ++k) add(Kind::kPoint, k, kPoseNames[k]);
+    else if (rule.fit_frame && frame_root(m, s) == s)
       for (int k = 0; k < 6; ++k) add(Kind::kFrame, k, kPoseNames[k]);
     if (!rule.fit_target || target_root(m, s) != s) continue;
     for (int k = 0; k < 3; ++k) add(Kind::kTarget, k, kPoseNames[k]);
@@ -83,6 +85,7 @@ bool Parameter::is_length() const {
   switch (kind) {
     case Kind::kD:
     case Kind::kA:
+    case Kind::kPoint:
     case Kind::kTarget:
       return true;
     case Kind::kLinkTwist:
@@ -94,7 +97,8 @@ bool Parameter::is_length() const {
 }
 
 bool Parameter::of_robot() const {
-  return kind != Kind::kFrame && kind != Kind::kTarget && kind != Kind::kTargetRotation;
+  return kind != Kind::kFrame && kind != Kind::kPoint && kind != Kind::kTarget &&
+         kind != Kind::kTargetRotation;
 }
 
 double reach(const format::Chain& chain) {
@@ -103,6 +107,10 @@ double reach(const format::Chain& chain) {
 
 std::string frame_prefix(const MeasurementSettings& settings, int setup) {
   return "frame" + of_setup(settings, setup);
+}
+
+std::string point_prefix(const MeasurementSettings& settings, int setup) {
+  return "point" + of_setup(settings, setup);
 }
 
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {

@@ -201,6 +201,9 @@ constexpr Explanation kCodes[] = {
      "readings with two loads tell them apart. Which loads can be mounted is taken from --payload, "
      "else from the measurements if they were made with several, else from [robot] payload and the "
      "arm without it. None of these states a second one."},
+    {"N-PLAN-POINT",
+     "plumb plan chooses poses anywhere in the limits. The cell's own readings are of fixed points "
+     "that the tool touches, and the arm can only turn about these."},
     {"N-PLAN-SETUP",
      "New poses are chosen for one set-up, the first of the cell; what was measured in the others "
      "counts as known. The choice hardly depends on the set-up: what matters is the arm."},
@@ -599,6 +602,16 @@ constexpr Explanation kCodes[] = {
      "A number of an effect ended where its law cannot be, by more than three sigma: a spring "
      "that pushes the wrong way, say. The effect imitates another one that the model lacks, or "
      "masses or signs are wrong."},
+    {"W-FIT-LENGTH",
+     "A distance between two touched points that the columns to_point and distance_mm state lies "
+     "more than three of its standard deviations from what the fit found, which took it into "
+     "account: it is wrong, in another unit, or a point moved half-way."},
+    {"W-FIT-POINT-MOVED",
+     "From some row on the tool meets a touched point elsewhere: its socket was bumped, or it is "
+     "another socket. Its residuals are the evidence, earlier ones against later ones."},
+    {"W-FIT-POINT-SAME",
+     "Two labels of touched points end at one place. As one point their readings would say more "
+     "about the arm."},
     {"W-FIT-OUTLIERS",
      "Some poses lie farther from what all others predict than six times their usual scatter: a "
      "bumped reflector, a broken beam, a mistyped number. They were not fitted. Held-out poses are "

@@ -10,6 +10,7 @@
 #include "cell/context_columns.hpp"
 #include "cell/rotation.hpp"
 #include "cell/table_place.hpp"
+#include "cell/touched_points.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -136,10 +137,11 @@ ArmColumns find_arm_columns(const Table& table, const std::vector<bool>& joint_i
   ArmColumns out;
   out.q = find_joints(table, "q", joint_is_angle, problems);
   out.p = find_axes(table, "");
-  if (needs == Needs::kJointsAndPosition && count(out.p) == 0)
+  if (needs == Needs::kJointsAndPosition && count(out.p) == 0 && !touches(table))
     problems.error("E-CSV-POSITION", "no measured position",
                    place_of_missing(table, "'x_mm', 'y_mm', 'z_mm' are missing"),
-                   "rename the tracker's columns to x_mm, y_mm, z_mm");
+                   "rename the tracker's columns to x_mm, y_mm, z_mm; where the tool touches "
+                   "fixed points, name these in a column 'point'");
   find_orientation(table, out, problems);
   out.sigma = find_companions(table, "s", "um", out.p, problems);
   out.nominal = find_companions(table, "n", "mm", out.p, problems);

@@ -60,7 +60,15 @@ struct Setup {
   bool fit_target = true;
   std::array<double, 3> target_T{};  // reflector in the tool frame [m], if not fitted
   std::optional<int> target_of;      // has the reflector of that earlier set-up
+  bool is_point = false;             // its rows touch one fixed point: touched_points.hpp
+  std::string position = {};         // of a point: the placement of its artefact
   Place place = {};
+};
+
+/// A distance between two touched points that is known, as of two sockets on one plate.
+struct KnownLength {
+  int from = 0, to = 0;  // set-ups of the two points
+  double length_m = 0.0;
 };
 
 struct MeasurementSettings {
@@ -69,12 +77,15 @@ struct MeasurementSettings {
   bool fit_frame = true;
   format::Pose X_MB;  // base in the measurement frame, if not fitted
   bool fit_target = true;
-  std::array<double, 3> target_T{};  // reflector in the tool frame [m], if not fitted
-  std::optional<double> sigma_m;     // 1 sigma per axis
-  std::optional<double> sigma_rad;   // 1 sigma per axis of measured orientations (sigma_urad)
+  std::array<double, 3> target_T{};     // reflector in the tool frame [m], if not fitted
+  std::optional<double> sigma_m;        // 1 sigma per axis
+  std::optional<double> sigma_rad;      // 1 sigma per axis of measured orientations (sigma_urad)
+  std::optional<double> sigma_touch_m;  // the same of touched points
   HeldOutRule held_out;
   std::uint64_t seed = 1;
   std::vector<Setup> setups;  // none: one, as above
+  std::vector<KnownLength> lengths;
+  double sigma_length_m = 50e-6;  // 1 sigma of each (sigma_distance_um), that of a printed part
 };
 
 /// What is known of a parameter beforehand: its nominal value and what arms differ from it, give or

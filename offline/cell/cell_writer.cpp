@@ -163,10 +163,14 @@ class CellWriter {
           "# sigma_um = 10   # noise of the tracker, 1 sigma per axis; or columns sx_um, sy_um, "
           "sz_um, or repeats of a pose");
     if (m.sigma_rad) line("sigma_urad = {}", text_in(*unit_of("urad"), *m.sigma_rad));
+    if (m.sigma_touch_m) line("sigma_touch_um = {}", text_in(um_, *m.sigma_touch_m));
+    if (m.sigma_length_m != MeasurementSettings{}.sigma_length_m)
+      line("sigma_distance_um = {}", text_in(um_, m.sigma_length_m));
     line("held_out = {}   # \"auto\", \"20%\", \"kfold:5\", \"column:set\", \"file:verify.csv\"",
          toml_string(held_out()));
     line("seed = {}\n", m.seed);
-    for (const auto& one : m.setups) setup(one);
+    for (const auto& one : m.setups)
+      if (!one.is_point) setup(one);
   }
 
   void setup(const Setup& s) {

@@ -107,9 +107,17 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CSV-ORIENTATION",
      "A measured orientation is all of qw, qx, qy, qz, or all of rx, ry, rz with a unit, and only "
      "one of the two."},
+    {"E-CSV-POINT",
+     "The column 'point' says in every row which fixed point the tool touches: rows with one label "
+     "touch one point. Where the distance between two of them is known, 'to_point' names the other "
+     "one and 'distance_mm' says how far it is, the same in every row that states it."},
+    {"W-CSV-POINT",
+     "A touched point is known only by the rows that touch it. With one row it can be anywhere, "
+     "so that the row says nothing about the arm."},
     {"E-CSV-POSITION",
      "The measured point is missing: columns x_mm, y_mm, z_mm (or another unit of length). Planar "
-     "arms may lack an axis; targets need all three."},
+     "arms may lack an axis; targets need all three. Rows in which the tool touches a fixed point "
+     "name it in a column 'point' instead."},
     {"E-CSV-QUATERNION",
      "The quaternion's length is off by more than 0.001. Often the order is another one (scalar "
      "last) or the decimals were cut. Smaller deviations are normalised."},

@@ -16,13 +16,14 @@ using Names = std::map<std::string, Quantity, std::less<>>;
 
 const Names& unitless_names() {
   static const Names names{
-      {"pose", Quantity::kText},   {"set", Quantity::kText},   {"note", Quantity::kText},
-      {"time", Quantity::kText},   {"joint", Quantity::kText}, {"type", Quantity::kText},
-      {"status", Quantity::kText}, {"setup", Quantity::kText}, {"repeat", Quantity::kNumber},
-      {"fold", Quantity::kNumber}, {"qw", Quantity::kNumber},  {"qx", Quantity::kNumber},
-      {"qy", Quantity::kNumber},   {"qz", Quantity::kNumber},  {"pqw", Quantity::kNumber},
-      {"pqx", Quantity::kNumber},  {"pqy", Quantity::kNumber}, {"pqz", Quantity::kNumber},
-      {"cqw", Quantity::kNumber},  {"cqx", Quantity::kNumber}, {"cqy", Quantity::kNumber},
+      {"pose", Quantity::kText},   {"set", Quantity::kText},      {"note", Quantity::kText},
+      {"time", Quantity::kText},   {"joint", Quantity::kText},    {"type", Quantity::kText},
+      {"status", Quantity::kText}, {"setup", Quantity::kText},    {"repeat", Quantity::kNumber},
+      {"point", Quantity::kText},  {"to_point", Quantity::kText}, {"position", Quantity::kText},
+      {"fold", Quantity::kNumber}, {"qw", Quantity::kNumber},     {"qx", Quantity::kNumber},
+      {"qy", Quantity::kNumber},   {"qz", Quantity::kNumber},     {"pqw", Quantity::kNumber},
+      {"pqx", Quantity::kNumber},  {"pqy", Quantity::kNumber},    {"pqz", Quantity::kNumber},
+      {"cqw", Quantity::kNumber},  {"cqx", Quantity::kNumber},    {"cqy", Quantity::kNumber},
       {"cqz", Quantity::kNumber},
   };
   return names;
@@ -30,8 +31,10 @@ const Names& unitless_names() {
 
 const Names& names_with_unit() {
   static const Names names = [] {
-    Names out{
-        {"payload", Quantity::kMass}, {"temp", Quantity::kTemperature}, {"t", Quantity::kTime}};
+    Names out{{"payload", Quantity::kMass},
+              {"temp", Quantity::kTemperature},
+              {"t", Quantity::kTime},
+              {"distance", Quantity::kLength}};
     for (const char* axis : {"x", "y", "z"}) {
       out.emplace(std::string("f") + axis, Quantity::kForce);
       out.emplace(std::string("m") + axis, Quantity::kTorque);

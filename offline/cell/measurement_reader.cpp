@@ -14,6 +14,7 @@
 #include "cell/replicates.hpp"
 #include "cell/table_file.hpp"
 #include "cell/table_place.hpp"
+#include "cell/touched_points.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -76,12 +77,13 @@ class Assembler {
     problems_.stop_on_errors();
   }
 
-  /// The files must have the same measured axes. Other columns that some files lack are dropped.
+  /// The files with positions must have the same measured axes. Other columns that some files lack
+  /// are dropped.
   void check_agreement() {
-    for (std::size_t i = 1; i < tables_.size(); ++i) {
-      const ArmColumns &first = columns_[0], &here = columns_[i];
-      for (int k = 0; k < 3; ++k) agree(i, "xyz"[k], first.p[k], here.p[k]);
-    }
+    const std::size_t with = first_with_positions();
+    for (std::size_t i = with + 1; i < tables_.size(); ++i)
+      for (int k = 0; k < 3 && !touches(tables_[i]); ++k)
+        agree(with, i, "xyz"[k], columns_[with].p[k], columns_[i].p[k]);
     drop_unless_everywhere(
         "orientation", [](ArmColumns& c) { return c.has_orientation(); },
         [](ArmColumns& c) { c.quat = {}, c.turns = {}; });
@@ -95,10 +97,16 @@ class Assembler {
 
   static bool given(const AxisColumns& columns) { return columns != AxisColumns{}; }
 
-  void agree(std::size_t i, char axis, bool first, bool here) {
+  /// The first table whose rows do not touch fixed points; how many tables there are if all do.
+  std::size_t first_with_positions() const {
+    return static_cast<std::size_t>(std::find_if_not(tables_.begin(), tables_.end(), touches) -
+                                    tables_.begin());
+  }
+
+  void agree(std::size_t with, std::size_t i, char axis, bool first, bool here) {
     if (first == here) return;
-    const Table& lacks = first ? tables_[i] : tables_[0];
-    const Table& has = first ? tables_[0] : tables_[i];
+    const Table& lacks = first ? tables_[i] : tables_[with];
+    const Table& has = first ? tables_[with] : tables_[i];
     problems_.error("E-CSV-MIXED", fmt::format("axis {} is measured in {} only", axis, has.file),
                     place_of_missing(lacks, fmt::format("'{}_mm' is missing", axis)),
                     "give all files of one cell the same measured axes");
@@ -140,7 +148,9 @@ class Assembler {
     m_.quat_M.resize(c.has_orientation() ? rows : 0, 4);
     m_.sigma_m = Rows3::Zero(given(c.sigma) ? rows : 0, 3);
     m_.nominal_B = Rows3::Zero(given(c.nominal) ? rows : 0, 3);
-    for (int k = 0; k < 3; ++k) m_.has_axis[k] = c.p[k] != nullptr;
+    // A point that is touched is known about all three axes.
+    if (const std::size_t with = first_with_positions(); with < tables_.size())
+      for (int k = 0; k < 3; ++k) m_.has_axis[k] = columns_[with].p[k] != nullptr;
     m_.pose.reserve(rows);
     m_.set.reserve(rows);
     file_.reserve(rows);

@@ -76,6 +76,10 @@ void read_measurement(TomlTable& t, CellDraft& draft) {
       for (int k = 0; k < 3; ++k) m.target_T[k] = draft.length.to_si((*target)[k]);
   if (const auto sigma = t.positive("sigma_um")) m.sigma_m = unit_of("um")->to_si(*sigma);
   if (const auto sigma = t.positive("sigma_urad")) m.sigma_rad = unit_of("urad")->to_si(*sigma);
+  if (const auto sigma = t.positive("sigma_touch_um"))
+    m.sigma_touch_m = unit_of("um")->to_si(*sigma);
+  if (const auto sigma = t.positive("sigma_distance_um"))
+    m.sigma_length_m = unit_of("um")->to_si(*sigma);
   read_held_out(t, draft);
   read_seed(t, m);
   read_setups(t, draft);

@@ -22,9 +22,11 @@ struct Measurements {
   std::vector<int> replicate_group;  // equal for repeats of one pose, 0 … groups - 1
   std::vector<SetMark> set;
   std::vector<int> setup;  // per row: which set-up of the cell it was measured in; empty: the only
-  std::vector<int> file;   // per row: which file it was read from, ascending; empty: none
-  RowsN q;                 // (n, joints) joint angles [rad] or travels [m]
-  Rows3 p_M;               // measured point, measurement frame [m]; 0 if axis missing
+  std::vector<int> placement;  // per row: which placement of an artefact it touches, so that whole
+                               // placements are held out; -1: none; empty: no row touches one
+  std::vector<int> file;       // per row: which file it was read from, ascending; empty: none
+  RowsN q;                     // (n, joints) joint angles [rad] or travels [m]
+  Rows3 p_M;                   // measured point, measurement frame [m]; 0 if axis missing
   std::array<bool, 3> has_axis{true, true, true};
   Rows4 quat_M;         // measured orientation (w, x, y, z), or 0 rows
   Rows3 sigma_m;        // 1 sigma per axis from columns, or 0 rows
@@ -33,6 +35,10 @@ struct Measurements {
   ContextRows context;  // what else is known of each pose
   int size() const { return static_cast<int>(q.rows()); }
   bool has_orientation() const { return quat_M.rows() > 0; }
+  /// Whether this row says that the target was in a fixed point: touched_points.hpp.
+  bool touches_point(Eigen::Index row) const {
+    return !placement.empty() && placement[static_cast<std::size_t>(row)] >= 0;
+  }
 };
 
 /// Measurements with the tables that they were read from, for code that quotes lines, columns or

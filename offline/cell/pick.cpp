@@ -63,6 +63,7 @@ Measurements pick(const Measurements& all, const std::vector<int>& rows) {
   out.replicate_group = picked(all.replicate_group, rows);
   out.set = picked(all.set, rows);
   out.setup = picked(all.setup, rows);
+  out.placement = picked(all.placement, rows);
   out.file = picked(all.file, rows);
   out.q = picked(all.q, rows);
   out.p_M = picked(all.p_M, rows);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cell/table_place.hpp"
+#include "cell/touched_points.hpp"
 #include "program/problem_list.hpp"
 
 namespace plumb::offline {
@@ -38,8 +39,9 @@ int setup_of_file(const MeasurementSettings& m, const fs::path& file) {
   return -1;
 }
 
+/// The column whose texts name the set-ups of the rows, or null.
 const Column* setup_column(const Table& table) {
-  const Column* column = table.find("setup");
+  const Column* column = table.find(touches(table) ? "point" : "setup");
   return column != nullptr && column->quantity == Quantity::kText ? column : nullptr;
 }
 
@@ -47,7 +49,10 @@ const Column* setup_column(const Table& table) {
 class Assigner {
  public:
   Assigner(const MeasurementSettings& settings, ProblemList& problems)
-      : m_(settings), problems_(problems) {}
+      : m_(settings),
+        problems_(problems),
+        alone_(settings.setups.size() > 1 && !settings.setups[0].is_point &&
+               settings.setups[1].is_point) {}
 
   /// by_file: the set-up that names the file, or -1.
   void assign(const Table& table, int by_file, std::vector<int>& out) {
@@ -57,7 +62,8 @@ class Assigner {
       const std::string text = column ? column->text[row] : std::string();
       int setup = by_file;
       if (!text.empty()) setup = said(table, row, *column, by_file);
-      if (text.empty() && by_file < 0 && without++ == 0) none(table, row, column);
+      if (text.empty() && setup < 0 && alone_) setup = 0;
+      if (text.empty() && setup < 0 && without++ == 0) none(table, row, column);
       out.push_back(std::max(0, setup));
     }
   }
@@ -98,6 +104,7 @@ class Assigner {
 
   const MeasurementSettings& m_;
   ProblemList& problems_;
+  bool alone_;  // all rows that touch no point belong to the first set-up
   std::set<std::string> reported_;
 };
 
@@ -236,6 +243,7 @@ void assign_setups(const Cell& cell, const std::vector<fs::path>& files,
                                    m.setups[k].name));
   problems.stop_on_errors();
   keep_repeats_apart(measured);
+  assign_placements(m, measured);
 }
 
 void assign_setups_to_predict(const Cell& cell, const fs::path& file, MeasurementFiles& rows) {

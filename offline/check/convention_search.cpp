@@ -239,6 +239,13 @@ Detection detect_in_one_setup(const Cell& cell, const MeasurementFiles& measured
 }  // namespace
 
 Detection detect_convention(const Cell& cell, const MeasurementFiles& measured) {
+  if (!measured.placement.empty()) {
+    // Distances between points that are measured tell units and conventions. Here they are fitted.
+    Detection out;
+    out.why_not = "points that the tool touches do not tell units and conventions";
+    out.present.convention = out.best.convention = labelled_convention(cell, measured);
+    return out;
+  }
   if (cell.measurement.setups.empty() || measured.setup.empty())
     return detect_in_one_setup(cell, measured);
   const OneSetup one = one_setup(cell, measured, largest_setup(cell, measured));

@@ -116,7 +116,7 @@ class Explainer {
     bool only_frame = true, only_target = true;
     for (const int i : here.partners) {
       out.partners.push_back(kept_[i].name);
-      only_frame = only_frame && kept_[i].kind == Parameter::Kind::kFrame;
+      only_frame = only_frame && kept_[i].of_base();
       only_target = only_target && kept_[i].kind == Parameter::Kind::kTarget;
     }
     const std::string with =
@@ -127,7 +127,9 @@ class Explainer {
       out.text = fmt::format("{} is seen too weakly to be better than {}: {}", p.name,
                              p.of_effect() ? "none" : "nominal", reason(p, here));
     } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_frame) {
-      out.text = cannot + "both move the base; the fitted frame carries it";
+      out.text = cannot + (data_.measured->placement.empty()
+                               ? "both move the base; the fitted frame carries it"
+                               : "both move the base, or all points; nothing tells where it is");
     } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_target) {
       out.text = cannot + "both move the reflector on the flange; the fitted target carries it";
     } else if (!anywhere) {
@@ -164,7 +166,7 @@ class Explainer {
   std::pair<int, int> span(const Parameter& p, const Mixture& here) const {
     int first = cell_.joints() - 1, last = 0;
     const auto take = [&](const Parameter& parameter) {
-      const bool frame = parameter.kind == Parameter::Kind::kFrame;
+      const bool frame = parameter.of_base();
       const int j = frame ? 0 : parameter.of_robot() ? parameter.joint : cell_.joints() - 1;
       first = std::min(first, j);
       last = std::max(last, j);

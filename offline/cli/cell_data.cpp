@@ -84,7 +84,7 @@ Cell open_cell(const Globals& globals, Outcome& outcome, Makes makes) {
   return cell;
 }
 
-MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome) {
+MeasurementFiles open_measurements(Cell& cell, Outcome& outcome) {
   MeasurementFiles measured = read_cell_measurements(cell);
   note_tables(measured, outcome);
   return measured;

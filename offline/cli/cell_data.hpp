@@ -31,7 +31,7 @@ void keep_cells_around(const Globals& globals, const std::filesystem::path& outp
                        Outcome& outcome);
 
 /// The cell's measurements; files and remarks go to `outcome`.
-MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome);
+MeasurementFiles open_measurements(Cell& cell, Outcome& outcome);
 
 /// Joint rows of another file, for this cell's arm or a model's.
 MeasurementFiles open_rows(const std::filesystem::path& file, const format::Chain& chain,

@@ -11,7 +11,9 @@
 namespace plumb::offline::cli {
 
 Cell with_effects(const Cell& cell, const std::vector<EffectEntry>& effects) {
-  return parse_cell(edited_effects(cell, effects), cell.file);
+  Cell out = parse_cell(edited_effects(cell, effects), cell.file);
+  out.measurement = cell.measurement;  // with the points that its rows touch
+  return out;
 }
 
 Cell open_cell_to_change(const Globals& globals, Outcome& outcome) {

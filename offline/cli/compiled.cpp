@@ -114,7 +114,7 @@ void Compiled::put_run(Json& result) const {
   result["refit_all"] = refit_all;
 }
 
-Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
+Compiled compiled(Cell& cell, const CompileOptions& options, const WriteOptions& write,
                   Outcome& outcome) {
   MeasurementFiles measured = open_measurements(cell, outcome);
   Run run =

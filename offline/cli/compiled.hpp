@@ -31,7 +31,7 @@ struct Compiled {
 /// The model of the cell's current run, or of a new one that is kept unless nothing is to be
 /// written. With refit_all its numbers come from every pose; the run stays the evidence behind
 /// them.
-Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
+Compiled compiled(Cell& cell, const CompileOptions& options, const WriteOptions& write,
                   Outcome& outcome);
 
 /// What --gate requires: no warning of the audit, and held-out poses that keep the tolerance.

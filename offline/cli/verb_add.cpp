@@ -110,12 +110,13 @@ struct Change {
 };
 
 /// Refits with other effects, shows before and after, and only then touches the cell file.
-void make(const Change& change, const AddArguments& options, const Globals& globals,
-          const Cell& cell, Outcome& outcome) {
+void make(const Change& change, const AddArguments& options, const Globals& globals, Cell& cell,
+          Outcome& outcome) {
   std::optional<Cell> read_back;
   checked(options.effect, cell, [&] { read_back = with_effects(cell, change.effects); });
-  const Cell& edited = *read_back;
+  Cell& edited = *read_back;
   MeasurementFiles measured = open_measurements(cell, outcome);
+  edited.measurement = cell.measurement;  // with the points that its rows touch
   checked(options.effect, cell, [&] {
     check_rows(edited, measured);
     if (change.adds) check_effect_sizes(bind_effects(edited, measured));
@@ -173,8 +174,7 @@ void say_which(const Cell& cell, const std::vector<EffectEntry>& entries, Outcom
 }
 
 void add(const AddArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell =
-      options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
+  Cell cell = options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
   const auto entries = options.effect.to_add(cell);
   say_which(cell, entries, outcome);
   Change change{.what = "Added " + together(cell, entries),
@@ -210,8 +210,7 @@ void add(const AddArguments& options, const Globals& globals, Outcome& outcome) 
 }
 
 void drop(const AddArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell =
-      options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
+  Cell cell = options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
   const auto entries = options.effect.to_drop(cell);
   say_which(cell, entries, outcome);
   auto effects = cell.effects;

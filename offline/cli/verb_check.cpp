@@ -54,8 +54,8 @@ void fix(const CheckArguments& options, const Cell& cell, const MeasurementFiles
 }
 
 void check(const CheckArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = options.fix && !options.write.dry_run ? open_cell_to_change(globals, outcome)
-                                                          : open_cell(globals, outcome);
+  Cell cell = options.fix && !options.write.dry_run ? open_cell_to_change(globals, outcome)
+                                                    : open_cell(globals, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
   const Progress progress(fmt::format("checking {} rows", measured.size()));
   const Check found = check_cell(cell, measured);

@@ -50,7 +50,7 @@ constexpr int kGivenBack = 4 << 20;
 
 void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   ::mallopt(M_MMAP_THRESHOLD, kGivenBack);
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   if (!names.empty() || seems_fitted(cell, measured)) forget_rows(measured);
   const auto runs = wanted(names, cell, measured, outcome);

@@ -42,7 +42,7 @@ Json result_of(const Compiled& made, const Audit& audit, const bench::StepCost& 
 }
 
 void compile_cell(const CompileArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome, Makes::kModel);
+  Cell cell = open_cell(globals, outcome, Makes::kModel);
   const fs::path file =
       options.output.empty() ? cell.directory / "robot.plumb" : fs::path(options.output);
   OutputFiles before;

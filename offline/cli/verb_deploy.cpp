@@ -157,7 +157,7 @@ std::string next_steps(const DeployArguments& options, const Cell& cell, const S
 }
 
 void deploy(const DeployArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   refuse_existing(options);
   std::optional<SecretKey> secret;
   if (!options.key.empty()) secret.emplace(read_secret_key(options.key));

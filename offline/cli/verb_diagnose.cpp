@@ -120,8 +120,8 @@ bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
 }
 
 void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = options.apply && !options.dry_run ? open_cell_to_change(globals, outcome)
-                                                      : open_cell(globals, outcome);
+  Cell cell = options.apply && !options.dry_run ? open_cell_to_change(globals, outcome)
+                                                : open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   double before_m = std::numeric_limits<double>::infinity();
   std::optional<Run> before = options.dry_run

@@ -44,7 +44,7 @@ void warn_of_losses(const format::Model& arm, Outcome& outcome) {
 }
 
 void run_export(const ExportArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   OutputFiles before;
   before.add(options.output, "");
   before.check(options.write, outcome);

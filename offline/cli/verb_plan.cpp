@@ -138,7 +138,7 @@ void plan_the_recheck(const PlanArguments& options, const Globals& globals, Outc
   if (!options.separate.empty() || !options.boxes.empty() || !options.limits.empty())
     usage("--recheck chooses among the poses of the calibration",
           "leave out --separate, --box and --joint-limits: plumb plan --recheck --n 12");
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   planned_file(options).check(options.write, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = latest_recheck(cell, current_or_new_run(cell, measured, Keep::kRun, outcome));
@@ -161,7 +161,7 @@ void plan_the_recheck(const PlanArguments& options, const Globals& globals, Outc
 
 void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome) {
   if (options.recheck) return plan_the_recheck(options, globals, outcome);
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   const PlanRequest request = request_of(options, cell);
   planned_file(options).check(options.write, outcome);
   const MeasurementFiles measured = measured_already(cell)

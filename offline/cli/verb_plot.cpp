@@ -121,7 +121,7 @@ std::string run_figure(const PlotArguments& options, const Cell& cell, Measureme
 
 void plot(const PlotArguments& options, const Globals& globals, Outcome& outcome) {
   if (options.list) return list_figures(outcome);
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   check_name(options.name, cell);
   const std::string file = options.output.empty() ? options.name + ".svg" : options.output;
   OutputFiles before;

@@ -258,7 +258,7 @@ void finish(const PredictArguments& options, const std::vector<Status>& status,
 /// The measured point in the measurement frame: held-out poses by models that never saw them.
 void predict_as_measured(const PredictArguments& options, const Globals& globals,
                          Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   refuse_existing(options.output, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = chosen_run(options, cell, measured, outcome);

@@ -141,7 +141,7 @@ std::string next_step(const Recheck& found) {
 }
 
 void recheck_cell(const RecheckArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   const MeasurementFiles own = open_measurements(cell, outcome);
   const NewReadings readings = new_readings(options.data, cell, own, outcome);
   const MeasurementFiles& rows = readings.rows;

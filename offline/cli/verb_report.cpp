@@ -147,7 +147,7 @@ void put_result(const ReportArguments& options, const report::ReportData& data,
 void write_report(const ReportArguments& options, const Globals& globals, Outcome& outcome) {
   std::optional<fs::path> browser;
   if (options.pdf) browser = report::find_browser();
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   const std::string file = options.output.empty() ? "report.html" : options.output;
   const std::string pdf = options.pdf ? fs::path(file).replace_extension(".pdf").string() : "";
   OutputFiles before;

@@ -14,7 +14,7 @@ namespace plumb::offline::cli {
 namespace {
 
 /// The history can be read without the measurements; then no run is the current one.
-std::optional<MeasurementFiles> present_measurements(const Cell& cell, Outcome& outcome) {
+std::optional<MeasurementFiles> present_measurements(Cell& cell, Outcome& outcome) {
   try {
     return open_measurements(cell, outcome);
   } catch (const Failure&) {
@@ -37,7 +37,7 @@ void note_no_sums(int number, Outcome& outcome) {
 }
 
 void runs(const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  Cell cell = open_cell(globals, outcome);
   const auto measured = present_measurements(cell, outcome);
   std::vector<show::ListedRun> list;
   Json damaged_runs = Json::array();

@@ -31,7 +31,8 @@ void deal(const Measurements& measured, const std::vector<int>& fit, const std::
     return static_cast<int>(std::unique(all.begin(), all.end()) - all.begin());
   }();
   rule.folds = std::min(groups, groups < kManyPoses ? kManyFoldCount : kFoldCount);
-  const Split split = split_poses(some, rule, out.cell->measurement.seed);
+  // A point whose every row were held out would be known to no row of the fit.
+  const Split split = split_poses(some, rule, out.cell->measurement.seed, NeverSplit::kPoses);
   for (int f = 0; f < rule.folds; ++f) {
     const auto begin = static_cast<Eigen::Index>(out.row.size());
     for (std::size_t i = 0; i < fit.size(); ++i)
@@ -161,6 +162,7 @@ void clear_of_model(const Calibration& calibration, const Rows3& sigma_m, double
   data.rows = s.row;
   data.sigma_m = sigma_m;
   data.sigma_rad = sigma_rad;
+  data.touches = touch_density(*s.measured, s.row, calibration.state, calibration.parameters);
   const Solution at = evaluate(data, calibration.state,
                                with_smooth_waves(calibration.state, calibration.parameters));
   s.y = at.residual;

@@ -229,7 +229,7 @@ CoarseFit coarse_from(const FitData& data, const ArmState& start,
   placed.X_MB = start.X_MB;
   placed.X_TG = start.X_TG;
   placed.more = start.more;
-  out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse);
+  out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse, Size::kGiven);
   check_enough(data, unknown_before(data, out.subset.kept), candidates);
   out.data.weak = held_directions(data, unhidden(placed), out.subset.kept, held);
   out.solution.state = with_held_at_nominal(unhidden(start), nominal, candidates, out.subset.held);
@@ -263,17 +263,18 @@ CoarseFit coarse_from_any(const FitData& data, const std::vector<ArmState>& star
 /// uncertainty of the base frame would enter the corrected tool pose.
 ParameterSubset fine_subset(const FitData& data, const ArmState& state,
                             const std::vector<Parameter>& candidates) {
-  if (state.arm.effects.empty()) return identifiable_parameters(data, state, candidates, kFine);
+  if (state.arm.effects.empty())
+    return identifiable_parameters(data, state, candidates, kFine, Size::kGiven);
   ArmState bare = state;
   bare.arm.effects.clear();
   std::vector<Parameter> of_arm;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(of_arm),
                [](const Parameter& p) { return !p.of_effect(); });
-  const auto shown = identifiable_parameters(data, bare, of_arm, kFine);
+  const auto shown = identifiable_parameters(data, bare, of_arm, kFine, Size::kGiven);
   std::vector<Parameter> left;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(left),
                [&](const Parameter& p) { return p.of_effect() || holds(shown.kept, p.name); });
-  ParameterSubset out = identifiable_parameters(data, state, left, kFine);
+  ParameterSubset out = identifiable_parameters(data, state, left, kFine, Size::kGiven);
   out.held.insert(out.held.end(), shown.held.begin(), shown.held.end());
   return out;
 }
@@ -403,11 +404,15 @@ CalibrationStart start_of(const Cell& cell, const Measurements& measured,
   out.even.sigma_m.setConstant(picked(out.data.sigma_m, rows).mean());
   // Of many rows, some are enough for a start and for the scatter.
   out.even.rows = thinned(out.even, kManyRows);
+  const auto weigh_touches = [&](const ArmState& state) {
+    out.even.touches = out.data.touches = touch_density(measured, rows, state, out.candidates);
+  };
   if (start != nullptr)
     out.states.push_back(*start);
   else
     for (auto& placed : placements(out.even, nominal_state(cell, measured), out.candidates))
       out.states.push_back(std::move(placed.state));
+  weigh_touches(out.states.front());
   if (cell.fit.earlier) {
     check_same_model(cell, *cell.fit.earlier);
     out.unknown =
@@ -458,10 +463,12 @@ Calibration calibrated_near(const Cell& cell, const Measurements& measured,
   std::vector<Parameter> candidates;
   for (const auto& p : candidates_of(cell, stated))
     if (p.of_effect() || holds(from.parameters, p.name)) candidates.push_back(p);
+  stated.touches = touch_density(measured, rows, start, candidates);
   Solution solution = evaluate(stated, unhidden(start), {});
   FitData data = stated;
   widen(data, excess_of(data, solution, candidates.size()));
-  const auto subset = identifiable_parameters(data, solution.state, candidates, kFine);
+  const auto subset =
+      identifiable_parameters(data, solution.state, candidates, kFine, Size::kGiven);
   data.weak = held_directions(stated, solution.state, subset.kept, held);
   FitData weakly_held = stated;
   weakly_held.weak = data.weak;

@@ -14,6 +14,7 @@
 #include "cell/reading_digest.hpp"
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"
+#include "cell/touched_points.hpp"
 #include "effects/effect_option.hpp"
 #include "fit/constants.hpp"
 #include "plumb/runtime/chain.hpp"
@@ -134,10 +135,11 @@ void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
        .help = "name readings that it has not seen: plumb fit --from RUN --data later.csv"});
 }
 
-MeasurementFiles read_cell_measurements(const Cell& cell) {
+MeasurementFiles read_cell_measurements(Cell& cell) {
   check_files(cell);
   const auto files = measurement_files(cell.measurement);
   MeasurementFiles out = read_measurements(files, cell.nominal, Needs::kJointsAndPosition);
+  list_touched_points(out.tables, cell.measurement);
   assign_setups(cell, files, out);
   ignore_lost_points(cell, out);
   check_rows(cell, out);

@@ -108,6 +108,19 @@ inline constexpr int kAutoFolds = 5, kFoldsUpTo = 500;
 inline constexpr double kHeldShare = 0.2;
 /// A set-up of fewer poses is fitted as a whole: it has up to nine numbers of its own. data.
 inline constexpr std::size_t kFewestOfSetup = 8;
+/// Whole placements of an artefact are held out if there are this many, in folds up to so many.
+/// With fewer, too little is left to calibrate an arm. chosen; contract
+/// (docs/without-a-tracker.md).
+inline constexpr std::size_t kFewestPlacements = 4;
+inline constexpr int kMostPlacementFolds = 10;
+/// A touched point has moved if the means of its earlier and later readings are this many standard
+/// deviations of their difference apart, and as many of one reading, and the readings next to the
+/// cut, so many on each side, show so much of it. chosen: the best of n places to cut is beyond 6
+/// by chance in less than one point of 100,000; what a missing effect leaves changes slowly.
+inline constexpr double kPointMoved = 6.0, kPointMovedBeside = 3.0, kMovedAtOnce = 0.6;
+inline constexpr int kTouchesBeside = 4;
+/// Two touched points this near to each other are one [m]. chosen: no two sockets are so near.
+inline constexpr double kSamePoint_m = 1e-3;
 /// Coordinates beyond its own numbers that a set-up must have: two readings. data; contract
 /// (W-FIT-SETUP-TIGHT).
 inline constexpr int kSpareOfSetup = 6;

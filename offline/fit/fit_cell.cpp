@@ -12,12 +12,15 @@
 #include "arm/predicted_points.hpp"
 #include "cell/replicates.hpp"
 #include "cell/setups.hpp"
+#include "cell/touched_points.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/constants.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/orientation_words.hpp"
+#include "fit/point_sense.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/unseen_points.hpp"
 #include "noise/usual_errors.hpp"
 #include "program/counted_words.hpp"
 #include "solve/imagined_poses.hpp"
@@ -60,7 +63,8 @@ void check_placed(const Cell& cell, const Measurements& measured, const std::vec
   for (const int row : held) {
     const int k = setup_of(measured, row);
     const Setup rule = setup_rule(m, k);
-    const bool frame = !rule.fit_frame || frames.contains(frame_root(m, k));
+    // Where a point is that no fitted row touches, its own rows tell: unseen_points.hpp.
+    const bool frame = rule.is_point || !rule.fit_frame || frames.contains(frame_root(m, k));
     if (frame && (!rule.fit_target || targets.contains(target_root(m, k)))) continue;
     throw Failure(
         Exit::kInput,
@@ -89,6 +93,7 @@ FittedModel fit_on(const Cell& cell, const Measurements& measured, const std::ve
   out.calibration.state.arm.domain = trained_box(some.q);
   out.calibration.state.arm.domain.context =
       trained_context(out.calibration.state.arm, some.context);
+  place_unseen_points(cell.measurement, measured, rows, out.calibration.state);
   out.geometry_only = out.calibration.state;
   const EffectEntry* entry = find_local_tree(cell);
   if (entry == nullptr) return out;
@@ -119,10 +124,15 @@ struct HeldPredictions {
 
 void predict_held(const Cell& cell, const Measurements& measured, const FittedModel& fitted,
                   const std::vector<int>& fit, const std::vector<int>& held, HeldPredictions& out) {
-  const ArmState nominal = place_nominal(cell, measured, fit);
-  overwrite(out.nominal, held, predicted_at(nominal, measured, held));
-  overwrite(out.geometry, held, predicted_at(fitted.geometry_only, measured, held));
-  overwrite(out.full, held, predicted_at(fitted.calibration.state, measured, held));
+  ArmState nominal = place_nominal(cell, measured, fit);
+  place_unseen_points(cell.measurement, measured, fit, nominal);
+  const auto predict = [&](const ArmState& state, Rows3& all) {
+    overwrite(all, held, predicted_at(state, measured, held));
+    widen_about_unseen_points(cell.measurement, measured, fit, held, all);
+  };
+  predict(nominal, out.nominal);
+  predict(fitted.geometry_only, out.geometry);
+  predict(fitted.calibration.state, out.full);
   if (out.turn_errors.size() > 0)
     out.turn_errors(held) = turn_errors(fitted.calibration.state, pick(measured, held));
 }
@@ -227,7 +237,8 @@ void remark_on_setups_without_held(const Cell& cell, const Measurements& measure
     judged.insert(measured.setup[static_cast<std::size_t>(row)]);
   std::vector<std::string> names;
   for (int k = 0; k < setup_count(cell.measurement); ++k)
-    if (!judged.contains(k)) names.push_back(setup_name(cell.measurement, k));
+    if (!judged.contains(k) && !touches_point(cell.measurement, k))
+      names.push_back(setup_name(cell.measurement, k));
   if (names.empty() || judged.empty()) return;
   out.remarks.push_back(
       {.severity = Severity::kWarning,
@@ -253,6 +264,7 @@ void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit&
   for (int k = 0; k < setup_count(cell.measurement); ++k) {
     const auto readings = std::count(measured.setup.begin(), measured.setup.end(), k);
     const int numbers = own_numbers(cell.measurement, k);
+    if (touches_point(cell.measurement, k)) continue;
     if (readings == 0 || numbers == 0 || axes * readings >= numbers + kSpareOfSetup) continue;
     out.remarks.push_back(
         {.severity = Severity::kWarning,
@@ -376,6 +388,9 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   remark_on_repeats_of_held(out);
   remark_on_open_setups(cell, measured, out);
   remark_on_tight_setups(cell, measured, out);
+  const Measurements fitted = pick(measured, without_outliers(fit, out.calibration.outliers));
+  for (auto& remark : point_remarks(cell.measurement, fitted, out.calibration))
+    out.remarks.push_back(std::move(remark));
   remark_on_setups_without_held(cell, measured, out);
   remark_on_marks(cell, out);
   remark_on_still_joints(out);

@@ -31,9 +31,10 @@ MeanInterval held_out_interval(const Measurements& measured, const Fit& fit) {
   const Rows3 error = residuals(measured, fit.predicted_M);
   std::vector<double> norms;
   std::vector<int> pose;
+  const std::vector<int> group = held_together(measured);
   for (const int row : held_rows(fit.split)) {
     norms.push_back(error.row(row).norm());
-    pose.push_back(measured.replicate_group[row]);
+    pose.push_back(group[static_cast<std::size_t>(row)]);
   }
   return mean_interval(norms, pose);
 }

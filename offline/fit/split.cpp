@@ -157,16 +157,36 @@ void leave_out_repeats_of_held(const Measurements& m, Split& split) {
          "hold out other poses than those fitted, or let plumb choose: plumb fit --held-out 20%");
 }
 
-/// The columns that a split reads, with replicate groups that treat the same pose in two set-ups as
-/// one: held out in one of them, it must not be fitted in the other.
-Measurements by_pose(const Measurements& m) {
+/// The columns that a split reads, with replicate groups of the rows that stay together. They treat
+/// the same pose in two set-ups as one: held out in one of them, it must not be fitted in the
+/// other.
+Measurements grouped(const Measurements& m, NeverSplit together) {
   Measurements out;
   out.q = m.q;
   out.set = m.set;
   out.setup = m.setup;
+  out.placement = m.placement;
   out.file = m.file;
   out.replicate_group = pose_groups(m);
+  if (together == NeverSplit::kPoses || count_groups(m.placement) < kFewestPlacements) return out;
+  const auto poses = static_cast<int>(count_groups(out.replicate_group));
+  std::map<int, int> number;
+  for (int i = 0; i < m.size(); ++i) {
+    int& group = out.replicate_group[i];
+    if (m.touches_point(i)) group = poses + m.placement[i];
+    group = number.emplace(group, static_cast<int>(number.size())).first->second;
+  }
   return out;
+}
+
+/// Folds of rows that all touch fixed points, as many as there are placements; 0 of other rows, and
+/// where there are too few placements.
+int folds_of_placements(const Measurements& m) {
+  const bool all = !m.placement.empty() && std::all_of(m.placement.begin(), m.placement.end(),
+                                                       [](int k) { return k >= 0; });
+  const auto count = static_cast<int>(count_groups(m.replicate_group));
+  const bool whole = all && count <= static_cast<int>(count_groups(m.placement));
+  return whole ? std::min(count, kMostPlacementFolds) : 0;
 }
 
 /// Which rows belong to a set-up of few poses, shape (n,).
@@ -177,7 +197,8 @@ std::vector<bool> in_small_setup(const Measurements& m, const std::vector<bool>&
   for (int i = 0; i < m.size(); ++i)
     if (used[i]) poses[m.setup[static_cast<std::size_t>(i)]].insert(m.replicate_group[i]);
   for (int i = 0; i < m.size(); ++i)
-    out[i] = poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfSetup;
+    out[i] =
+        !m.touches_point(i) && poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfSetup;
   return out;
 }
 
@@ -202,6 +223,8 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
     case HeldOutRule::Kind::kAuto:
       if (marks_held_rows(m))
         hold_marked(m, split);
+      else if (const int folds = folds_of_placements(m); folds > 0)
+        make_folds(m, folds, random, split);
       else if (static_cast<int>(representatives(m, split.used).size()) <= kFoldsUpTo)
         make_folds(m, kAutoFolds, random, split);
       else
@@ -227,8 +250,14 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
 
 }  // namespace
 
-Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed) {
-  return m.setup.empty() ? split_of(m, rule, seed) : split_of(by_pose(m), rule, seed);
+Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed,
+                  NeverSplit together) {
+  return m.setup.empty() ? split_of(m, rule, seed) : split_of(grouped(m, together), rule, seed);
+}
+
+std::vector<int> held_together(const Measurements& m) {
+  return m.placement.empty() ? m.replicate_group
+                             : grouped(m, NeverSplit::kPlacements).replicate_group;
 }
 
 std::vector<int> fit_rows(const Split& split) { return fit_rows(split, -2); }
@@ -257,7 +286,7 @@ std::vector<int> held_rows(const Split& split) {
 
 std::vector<int> even_choice(const Measurements& m, const std::vector<int>& rows, int most,
                              std::uint64_t seed) {
-  const Measurements some = by_pose(pick(m, rows));
+  const Measurements some = grouped(pick(m, rows), NeverSplit::kPoses);
   Split split;
   split.used.assign(rows.size(), true);
   const auto poses = static_cast<int>(representatives(some, split.used).size());

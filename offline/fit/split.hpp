@@ -21,13 +21,23 @@ struct Split {
   bool marked = false;      // column `set` has chosen the held-out rows
 };
 
+/// What is never split: repeats of a pose alone, or also the rows of one placement of an artefact
+/// (cell/touched_points.hpp), if there are at least four placements. Held out with all its rows, a
+/// point says how well the arm goes to a place where it was not calibrated.
+enum class NeverSplit { kPoses, kPlacements };
+
 /// With "auto", the rows that the files mark as held are held out. Without such marks, up to 500
-/// different poses are split into five folds; of more, a fifth is held out.
+/// different poses are split into five folds; of more, a fifth is held out. Where all rows touch
+/// fixed points there are up to ten folds of placements.
 ///
 /// The choice is stratified in joint space: neighbours in k-d order form a stratum, and the same
 /// share of each stratum is held out. Deterministic in the seed. Throws Failure (kInput) if the
 /// rule cannot be met.
-Split split_poses(const Measurements& measurements, const HeldOutRule& rule, std::uint64_t seed);
+Split split_poses(const Measurements& measurements, const HeldOutRule& rule, std::uint64_t seed,
+                  NeverSplit together = NeverSplit::kPlacements);
+
+/// Group of each row by what is never split: errors within one group are alike.
+std::vector<int> held_together(const Measurements& measurements);
 
 std::vector<int> fit_rows(const Split& split);            // of the final model
 std::vector<int> fit_rows(const Split& split, int fold);  // of one fold

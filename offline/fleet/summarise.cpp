@@ -134,7 +134,7 @@ std::string seen_from(const fs::path& folder, std::string words) {
 
 void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   check_regular(folder / "cell.toml");
-  const Cell cell = read_cell(folder / "cell.toml");
+  Cell cell = read_cell(folder / "cell.toml");
   for (const auto& file : measurement_files(cell.measurement)) check_regular(file);
   out.arm = cell.name;
   out.robot = cell.robot_name;

@@ -11,7 +11,18 @@ namespace plumb::offline {
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured) {
   if (measured.sigma_m.rows() > 0) return measured.sigma_m.cwiseMax(kSmallestSigma_m);
   const double sigma = cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
-  return Rows3::Constant(measured.size(), 3, std::max(sigma, kSmallestSigma_m));
+  Rows3 out = Rows3::Constant(measured.size(), 3, std::max(sigma, kSmallestSigma_m));
+  const double touch = sigma_of_touches(cell, measured).value_or(kUnstatedTouch_m);
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    if (measured.touches_point(i)) out.row(i).setConstant(std::max(touch, kSmallestSigma_m));
+  return out;
+}
+
+std::optional<double> sigma_of_touches(const Cell& cell, const Measurements& measured) {
+  const MeasurementSettings& m = cell.measurement;
+  const bool alone = std::all_of(measured.placement.begin(), measured.placement.end(),
+                                 [](int placement) { return placement >= 0; });
+  return m.sigma_touch_m || !alone ? m.sigma_touch_m : m.sigma_m;
 }
 
 double reading_sigma(const Cell& cell, const Measurements& used) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 
@@ -13,9 +15,16 @@ inline constexpr double kSmallestSigma_m = 0.1e-6;
 /// at some metres.
 inline constexpr double kUnstatedSigma_m = 10e-6;
 
+/// The same of a touched point [m]: the play of a ball in a socket that was not made by a printer.
+inline constexpr double kUnstatedTouch_m = 50e-6;
+
 /// 1 sigma of every measured coordinate, shape (n, 3) [m]: from the file's columns, else from the
-/// cell, else 10 um; never below 0.1 um.
+/// cell, else 10 um, of a touched point 50 um; never below 0.1 um.
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured);
+
+/// What the cell states of touched points [m]: sigma_touch_um, or sigma_um where all rows touch
+/// one.
+std::optional<double> sigma_of_touches(const Cell& cell, const Measurements& measured);
 
 /// 1 sigma of a coordinate for a plan of poses [m]: from repeats if there are enough, else as the
 /// cell states it, else 10 um. The error of the model does not count.

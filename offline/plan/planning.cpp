@@ -9,6 +9,7 @@
 
 #include "arm/effect_binding.hpp"
 #include "cell/setups.hpp"
+#include "cell/touched_points.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
@@ -78,7 +79,15 @@ Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
 
 PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
                    PosePlan& out) {
-  if (const auto& setups = cell.measurement.setups; setups.size() > 1)
+  if (touches_point(cell.measurement, 0))
+    out.remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-PLAN-POINT",
+         .message =
+             "the poses are chosen for measured positions: with the ball in a socket the arm "
+             "does not come to most of them",
+         .help = "in each socket, turn the tool about all axes as far as it goes"});
+  else if (const auto& setups = cell.measurement.setups; setups.size() > 1)
     out.remarks.push_back(
         {.severity = Severity::kNote,
          .code = "N-PLAN-SETUP",

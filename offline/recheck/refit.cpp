@@ -71,12 +71,12 @@ LastSetup last_setup(const Run& run) {
   std::vector<Eigen::Index> kept;
   for (int i = 0; i < count; ++i) {
     Parameter p = c.parameters[static_cast<std::size_t>(i)];
-    const bool frame = p.kind == Kind::kFrame;
+    const bool frame = p.of_base();
     if (!p.of_robot()) {
       if (p.setup != (frame ? c.state.frame_of(last) : c.state.target_of(last))) continue;
       p.setup = 0;
       if (const auto dot = p.name.rfind('.'); dot != std::string::npos)
-        p.name = (frame ? "frame" : "target") + p.name.substr(dot);
+        p.name = (frame ? p.name.substr(0, 5) : "target") + p.name.substr(dot);
     }
     out.known.parameters.push_back(std::move(p));
     kept.push_back(i);

@@ -8,6 +8,7 @@
 #include "observe/line_table.hpp"
 #include "observe/tracker_reading.hpp"
 #include "solve/known_arm.hpp"
+#include "solve/touch_density.hpp"
 #include "solve/weak_directions.hpp"
 
 namespace plumb::offline {
@@ -22,6 +23,7 @@ struct FitData {
   const Cell* cell = nullptr;  // gives the priors of the fit; null: there are none
   WeakDirections weak = {};    // held near nominal; their parameters must be among those fitted
   KnownArm arm = {};           // prior of the fitted numbers by an earlier calibration
+  TouchDensity touches = {};   // if rows touch fixed points
   bool series = false;         // the amplitudes of series of waves are fitted as well
 
   /// What each row shows.

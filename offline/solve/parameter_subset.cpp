@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cell/touched_points.hpp"
 #include "solve/constants.hpp"
 #include "solve/scaled_jacobian.hpp"
 #include "solve/thinned_rows.hpp"
@@ -23,13 +24,17 @@ double plausible_size(const Parameter& p, double length) {
 
 ParameterSubset identifiable_parameters(const FitData& data, const ArmState& state,
                                         const std::vector<Parameter>& candidates,
-                                        const Identifiability& limits) {
+                                        const Identifiability& limits, Size size) {
   FitData thin = data;
   thin.weak = {};  // only the poses count here, not how near nominal an arm is built
   thin.rows = thinned(data, kRankRows);
   Eigen::MatrixXd J = jacobian_for_all(data, thin, state, candidates);
   const double lines = std::sqrt(static_cast<double>(data.residual_count()));
   const double sigma = data.sigma_m.row(thin.rows.front()).mean();
+  if (size == Size::kGiven && data.cell != nullptr && lacks_length(*data.cell)) {
+    J.conservativeResize(J.rows() + 1, Eigen::NoChange);
+    J.bottomRows(1) = data.touches.slopes_of(candidates) * reach(state.arm.calibrated) / sigma;
+  }
   for (Eigen::Index k = 0; k < J.cols(); ++k) {
     const double rms = J.col(k).norm() / lines * sigma;
     J.col(k) *= plausible_size(candidates[static_cast<std::size_t>(k)], rms);

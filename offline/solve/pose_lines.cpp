@@ -4,6 +4,22 @@
 #include "arm/predicted_points.hpp"
 
 namespace plumb::offline {
+namespace {
+
+/// Columns of a row that touches a fixed point, whose residual from target to point is `missed_M`.
+/// A turn moves what is in the point rather than the target beside it: so the part of the arm
+/// behind a joint turns with the residual, which keeps its length. times, slopes: of TouchDensity.
+void shift_to_point(const Vector3& missed_M, double times, const Eigen::RowVectorXd& slopes,
+                    GeometryDerivative::Point& point) {
+  for (Eigen::Index k = 0; k < point.columns.cols(); ++k) {
+    const Vector3 turn = point.columns.col(k).tail<3>();
+    point.columns.col(k).head<3>() +=
+        cross<double>(turn, missed_M) + missed_M * (slopes(k) / times);
+  }
+  point.columns.topRows<3>() /= times;
+}
+
+}  // namespace
 
 PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int first, int last,
                                          double* residual, double* jacobian) const {
@@ -21,6 +37,7 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
   const TrackerReading reading = data_.reading();
   const bool departed = m.departure_B.rows() > 0;
   const bool has_effects = !geometry.state().arm.effects.empty();
+  const double times = data_.touches.times(geometry.state());
   for (int at = first; at < last; ++at) {
     const int i = data_.rows[static_cast<std::size_t>(at)];
     const int setup = setup_of(m, i);
@@ -29,6 +46,11 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
                                   : MeasuredContext{},
                       point, departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero(), setup);
     if (point.undefined >= 0) return {i, point.undefined};
+    Vector3 missed = (m.p_M.row(i) - point.p_M.transpose()).transpose();
+    if (m.touches_point(i)) {
+      if (jacobian != nullptr) shift_to_point(missed, times, slopes_, point);
+      missed /= times;
+    }
     Vector3 turn = Vector3::Zero();
     if (reading.turn_lines() > 0) {
       const auto quat = m.quat_M.row(i);
@@ -37,7 +59,7 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
     }
     reading.components([&](int k) {
       if (k < 3)
-        emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
+        emit(missed(k), data_.sigma_m(i, k), k);
       else
         emit(turn(k - 3), data_.sigma_rad, k);
     });

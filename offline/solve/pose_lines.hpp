@@ -18,7 +18,7 @@ class PoseLines {
  public:
   /// Keeps references to both.
   PoseLines(const FitData& data, const std::vector<Parameter>& parameters)
-      : data_(data), parameters_(parameters) {}
+      : data_(data), parameters_(parameters), slopes_(data.touches.slopes_of(parameters)) {}
 
   /// A row, and the effect that has no value there; -1 if all effects have one.
   struct Undefined {
@@ -33,6 +33,7 @@ class PoseLines {
  private:
   const FitData& data_;
   const std::vector<Parameter>& parameters_;
+  Eigen::RowVectorXd slopes_;  // of data.touches
 };
 
 }  // namespace plumb::offline

@@ -114,17 +114,38 @@ PriorLines::WeakColumns PriorLines::weak_columns(const FitData& data,
   return out;
 }
 
+std::vector<PriorLines::KnownDistance> PriorLines::distances(
+    const FitData& data, const std::vector<Parameter>& parameters) {
+  std::vector<KnownDistance> out;
+  if (data.cell == nullptr) return out;
+  const auto first_of = [&](int setup) {
+    const auto at = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
+      return p.kind == Parameter::Kind::kPoint && p.setup == setup && p.component == 0;
+    });
+    const auto left = parameters.end() - at;
+    return left >= 3 && (at + 2)->setup == setup ? at - parameters.begin() : Eigen::Index{-1};
+  };
+  for (const KnownLength& length : data.cell->measurement.lengths) {
+    const Eigen::Index from = first_of(length.from), to = first_of(length.to);
+    if (from >= 0 && to >= 0)
+      out.push_back({length, from, to, data.cell->measurement.sigma_length_m});
+  }
+  return out;
+}
+
 PriorLines::PriorLines(const FitData& data, const ArmState& start,
                        const std::vector<Parameter>& parameters)
     : data_(data),
       parameters_(parameters),
       known_(known(data, start, parameters)),
       earlier_(earlier_numbers(data, parameters)),
+      distances_(distances(data, parameters)),
       weak_(weak_columns(data, parameters)) {}
 
 int PriorLines::count() const {
   const auto directions = weak_.index.empty() ? 0 : data_.weak.weights.rows();
-  return static_cast<int>(known_.size() + earlier_.index.size()) + static_cast<int>(directions);
+  return static_cast<int>(known_.size() + earlier_.index.size() + distances_.size()) +
+         static_cast<int>(directions);
 }
 
 PriorLines::Pull PriorLines::pull_of(const KnownParameter& known, const ArmState& state) const {
@@ -194,6 +215,8 @@ void PriorLines::evaluate(const ArmState& state, double* residual, double* jacob
   next(row);
   add_earlier(state, residual, jacobian);
   next(static_cast<Eigen::Index>(earlier_.index.size()));
+  add_distances(state, residual, jacobian);
+  next(static_cast<Eigen::Index>(distances_.size()));
   add_weak(state, residual, jacobian);
 }
 
@@ -211,6 +234,24 @@ void PriorLines::add_earlier(const ArmState& state, double* residual, double* ja
   J.setZero();
   for (Eigen::Index k = 0; k < size; ++k)
     J.col(earlier_.index[static_cast<std::size_t>(k)]) = -earlier_.whitening.col(k);
+}
+
+void PriorLines::add_distances(const ArmState& state, double* residual, double* jacobian) const {
+  const auto count = static_cast<Eigen::Index>(parameters_.size());
+  for (std::size_t k = 0; k < distances_.size(); ++k) {
+    const KnownDistance& known = distances_[k];
+    const Vector3 apart =
+        from_pose(state.frame(known.length.to)).p - from_pose(state.frame(known.length.from)).p;
+    residual[k] = (known.length.length_m - apart.norm()) / known.sigma_m;
+    if (jacobian == nullptr) continue;
+    Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + static_cast<Eigen::Index>(k) * count, count);
+    slopes.setZero();
+    if (apart.norm() == 0.0) continue;
+    const Eigen::RowVector3d along = apart.transpose() / (apart.norm() * known.sigma_m);
+    // The frame of a point is shifted by what the point is away from the base, the other way.
+    slopes.segment<3>(known.from) = -along;
+    slopes.segment<3>(known.to) = along;
+  }
 }
 
 void PriorLines::add_weak(const ArmState& state, double* residual, double* jacobian) const {

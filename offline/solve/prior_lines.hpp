@@ -12,7 +12,7 @@ namespace plumb::offline {
 
 /// What is known of the parameters of a fit beforehand, as lines of its least squares behind those
 /// of the poses: the priors of the cell, the typical sizes of effects, what an earlier calibration
-/// found, and the weak directions.
+/// found, the distances between touched points that are known, and the weak directions.
 class PriorLines {
  public:
   /// Keeps references to `data` and `parameters`.
@@ -59,18 +59,28 @@ class PriorLines {
                                         const std::vector<Parameter>& parameters);
   static std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
                                            const std::vector<Parameter>& parameters);
+  /// A known distance between two points, and the columns of their x, y and z.
+  struct KnownDistance {
+    KnownLength length;
+    Eigen::Index from = 0, to = 0;
+    double sigma_m = 0.0;
+  };
+  static std::vector<KnownDistance> distances(const FitData& data,
+                                              const std::vector<Parameter>& parameters);
   static WeakColumns weak_columns(const FitData& data, const std::vector<Parameter>& parameters);
   struct Pull;
   static Pull pull_of(double u, KnownParameter::Tail tail);
   Pull pull_of(const KnownParameter& known, const ArmState& state) const;
   void doubt_sisters(double* residual, double* jacobian) const;
   void add_earlier(const ArmState& state, double* residual, double* jacobian) const;
+  void add_distances(const ArmState& state, double* residual, double* jacobian) const;
   void add_weak(const ArmState& state, double* residual, double* jacobian) const;
 
   const FitData& data_;
   const std::vector<Parameter>& parameters_;
   std::vector<KnownParameter> known_;
   EarlierNumbers earlier_;
+  std::vector<KnownDistance> distances_;
   WeakColumns weak_;
 };
 

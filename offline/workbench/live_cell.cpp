@@ -129,7 +129,11 @@ void LiveCell::read_data_again() {
   data_problem_.reset();
   data_sha256_.clear();
   if (!cell_) return;
-  data_problem_ = problem_in([&] { data_ = read_cell_measurements(*cell_); });
+  data_problem_ = problem_in([&] {
+    Cell cell = *cell_;
+    data_ = read_cell_measurements(cell);
+    cell_ = std::make_shared<const Cell>(std::move(cell));
+  });
   if (data_) data_sha256_ = sha256_of(*data_);
 }
 

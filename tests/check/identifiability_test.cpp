@@ -168,7 +168,7 @@ TEST(Separation, SaysThatTheReflectorIsOnTheLastAxis) {
 TEST(Separation, ExplainsTheNearDegenerateNumbersOfARealArm) {
   const std::filesystem::path folder = PLUMB_SHARED_DATA;
   if (!std::filesystem::exists(folder / "cell.toml")) GTEST_SKIP() << "no " << folder;
-  const Cell cell = read_cell(folder / "cell.toml");
+  Cell cell = read_cell(folder / "cell.toml");
   const MeasurementFiles m = read_cell_measurements(cell);
   const auto r = report(cell, m);
   EXPECT_EQ(r.rank, 27);

@@ -36,7 +36,7 @@ class Ur10Diagnosis : public ::testing::Test {
     return out;
   }
   static Diagnosis diagnosed(const char* series, long seed) {
-    const Cell c = cell(series, seed);
+    Cell c = cell(series, seed);
     const MeasurementFiles measured = read_cell_measurements(c);
     const double slower = tests::times_slower();
     const std::clock_t begin = std::clock();
@@ -141,7 +141,7 @@ ArmState fitted(Cell cell, const Measurements& measured, const std::vector<Effec
 }
 
 /// Series B, its held-out poses, by what series A taught.
-void carries_to_series_b(const Cell& a, const Cell& b, const Diagnosis& d) {
+void carries_to_series_b(Cell a, Cell b, const Diagnosis& d) {
   const Measurements in_a = read_cell_measurements(a), in_b = read_cell_measurements(b);
   const Split split = split_poses(in_b, b.measurement.held_out, 1);
   const Tips physics = tips_of(fitted(a, in_a, d.effects), in_b);

@@ -117,7 +117,7 @@ TEST_F(Ur10Data, ACalibrationOfOneMonthStillBeatsNominalInAnotherOnceTheTrackerI
 TEST_F(Ur10Data, FitsFifteenHundredPosesInHalfASecondAndTwelveThousandInThree) {
   for (const auto& [series, limit_s] : {std::pair{kB, 0.5}, std::pair{kA, 3.0}}) {
     const double start = tests::processor_s();
-    const Cell c = cell(series);
+    Cell c = cell(series);
     const Measurements m = read_cell_measurements(c);
     const Fit fit = fit_cell(c, m);
     const double took = tests::processor_s() - start;

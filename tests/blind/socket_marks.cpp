@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/blind/socket_marks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "arm/predicted_points.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/cell_data.hpp"
+#include "tests/cell/support.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kSockets = 10, kFresh = 200;
+/// A normal number lies within so many standard deviations in 95 % of all cases.
+constexpr double kIn95 = 1.96;
+
+SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
+  SocketPlan out;
+  out.seed = seed;
+  out.placements = way.kind == SocketWay::Kind::kTracker ? 1 : kSockets / 2;
+  out.touches = way.kind == SocketWay::Kind::kTracker ? 2 : way.readings / kSockets;
+  out.play_m = way.sigma_m;
+  out.known_distance = way.kind == SocketWay::Kind::kKnownDistance;
+  return out;
+}
+
+/// Where a tracker sees the ball at random joints.
+std::string tracker_csv(SocketArm& arm, const SocketWay& way) {
+  std::string out = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n";
+  for (int i = 0; i < way.readings; ++i) {
+    const SocketArm::Joints q = arm.random_joints();
+    for (const double angle : q) out += fmt::format("{:.7f},", angle * 180.0 / M_PI);
+    const Eigen::Vector3d p = arm.ball(q) + arm.noise(way.sigma_m);
+    out += fmt::format("{:.6f},{:.6f},{:.6f}\n", p.x() * 1e3, p.y() * 1e3, p.z() * 1e3);
+  }
+  return out;
+}
+
+double fresh_error(SocketArm& arm, const ArmState& state) {
+  Measurements fresh;
+  fresh.q.resize(kFresh, 6);
+  Rows3 truth(kFresh, 3);
+  for (int i = 0; i < kFresh; ++i) {
+    const SocketArm::Joints q = arm.random_joints();
+    for (std::size_t k = 0; k < 6; ++k) fresh.q(i, static_cast<Eigen::Index>(k)) = q[k];
+    truth.row(i) = arm.ball(q).transpose();
+  }
+  fresh.p_M = truth;
+  const Rows3 found = predict_points(state, fresh);
+  const Rows3 a = found.rowwise() - found.colwise().mean().eval();
+  const Rows3 b = truth.rowwise() - truth.colwise().mean().eval();
+  const Eigen::Matrix3d H = a.transpose() * b;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d R = svd.matrixV() * svd.matrixU().transpose();
+  return (a * R.transpose() - b).rowwise().norm().mean();
+}
+
+/// The true value of "J3.a"; not a number for names of nothing that the simulated arm has.
+double true_value(const SocketArm& arm, const std::string& name) {
+  const auto joint = static_cast<std::size_t>(name[1] - '1');
+  const std::string what = name.substr(3);
+  if (name[0] != 'J' || joint >= 6) return NAN;
+  const char* const names[] = {"theta", "d", "a", "alpha"};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (what == names[k]) return arm.rows()[joint][k];
+  return what == "beta" ? 0.0 : NAN;
+}
+
+void judge(const SocketWay& way, std::uint64_t seed, SocketMarks& out) {
+  SocketArm arm(plan_of(way, seed));
+  const Folder folder;
+  const auto file = folder.put("cell.toml", arm.cell_toml());
+  const bool tracker = way.kind == SocketWay::Kind::kTracker;
+  folder.put("measurements.csv", tracker ? tracker_csv(arm, way) : arm.measurements_csv());
+  Cell cell = read_cell(file);
+  cell.measurement.sigma_m = way.sigma_m;
+  const MeasurementFiles measured = read_cell_measurements(cell);
+  std::vector<int> rows(static_cast<std::size_t>(measured.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  try {
+    const Calibration c = calibrate(cell, measured, rows);
+    out.errors_m.push_back(fresh_error(arm, c.state));
+    for (const Estimate& e : c.estimates) {
+      const double truth = true_value(arm, e.name);
+      if (!e.of_robot || std::isnan(truth)) continue;
+      ++out.numbers;
+      if (std::abs(e.value - truth) <= kIn95 * e.std) ++out.inside;
+    }
+  } catch (const Failure& failure) {
+    if (failure.exit_code() != Exit::kNumbersSayNo) throw;
+    ++out.refused;
+  }
+}
+
+}  // namespace
+
+double SocketMarks::mean_m() const {
+  return std::accumulate(errors_m.begin(), errors_m.end(), 0.0) /
+         std::max(1.0, static_cast<double>(errors_m.size()));
+}
+
+SocketMarks socket_marks(const SocketWay& way, int arms, std::uint64_t seed) {
+  SocketMarks out;
+  out.way = way;
+  for (int k = 0; k < arms; ++k) judge(way, seed + static_cast<std::uint64_t>(k), out);
+  return out;
+}
+
+std::string socket_table(const std::vector<SocketMarks>& all) {
+  std::string out =
+      "| measured by | 1 sigma [µm] | readings | error at fresh joints [mm] | numbers inside their "
+      "95 % interval | not calibrated |\n|---|---|---|---|---|---|\n";
+  for (const SocketMarks& m : all) {
+    const char* by = m.way.kind == SocketWay::Kind::kTracker         ? "tracker"
+                     : m.way.kind == SocketWay::Kind::kKnownDistance ? "sockets, known distance"
+                                                                     : "sockets";
+    out +=
+        fmt::format("| {} | {:.0f} | {} | {:.3f} | {:.1f} % | {} of {} |\n", by,
+                    m.way.sigma_m * 1e6, m.way.readings, m.mean_m() * 1e3, 100.0 * m.inside_share(),
+                    m.refused, m.refused + static_cast<int>(m.errors_m.size()));
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/cases/socket_arm.hpp"
+
+namespace plumb::offline {
+
+/// How the arms of one line of the table were measured.
+struct SocketWay {
+  enum class Kind { kSockets, kKnownDistance, kTracker } kind = Kind::kSockets;
+  int readings = 100;      // of ten sockets, on five places; or poses that a tracker measured
+  double sigma_m = 30e-6;  // play of the ball, or noise of the tracker, each axis
+};
+
+/// What came out for one way, over some arms.
+struct SocketMarks {
+  SocketWay way;
+  std::vector<double> errors_m;  // of each arm: mean at fresh joints, the base laid on the true one
+  int inside = 0, numbers = 0;   // numbers of the arm within their 95 % interval, and all
+  int refused = 0;               // arms that were not calibrated
+
+  double mean_m() const;
+  double inside_share() const { return numbers > 0 ? static_cast<double>(inside) / numbers : 0.0; }
+};
+
+/// Calibrates `arms` arms, seeds from `seed` on.
+SocketMarks socket_marks(const SocketWay& way, int arms, std::uint64_t seed);
+
+/// The table of docs/without-a-tracker.md.
+std::string socket_table(const std::vector<SocketMarks>& all);
+
+}  // namespace plumb::offline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/blind/socket_marks.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Kind = SocketWay::Kind;
+
+/// A slice of docs/without-a-tracker.md.
+TEST(Sockets, CalibrateAnArmAsTheirPageSays) {
+  const SocketMarks marks = socket_marks({Kind::kKnownDistance, 200, 30e-6}, 6, 2050);
+  EXPECT_EQ(marks.refused, 0);
+  EXPECT_LT(marks.mean_m(), 0.10e-3);
+  EXPECT_GE(marks.inside_share(), 0.85);
+  EXPECT_GT(marks.numbers, 100);
+}
+
+TEST(Sockets, WithMorePlayLeaveMoreError) {
+  const SocketMarks little = socket_marks({Kind::kSockets, 100, 10e-6}, 4, 2060);
+  const SocketMarks much = socket_marks({Kind::kSockets, 100, 100e-6}, 4, 2060);
+  EXPECT_GT(much.mean_m(), 1.2 * little.mean_m());
+}
+
+}  // namespace
+}  // namespace plumb::offline

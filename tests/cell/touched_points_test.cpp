@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/touched_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cell/measurement_reader.hpp"
+#include "cell/setups.hpp"
+#include "tests/cell/support.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Summary = std::vector<std::string>;
+
+class TouchedRows : public testing::Test {
+ protected:
+  MeasurementFiles read(const std::vector<std::string>& texts) {
+    std::vector<std::filesystem::path> files;
+    for (std::size_t i = 0; i < texts.size(); ++i)
+      files.push_back(folder_.put(std::string(1, static_cast<char>('a' + i)) + ".csv", texts[i]));
+    MeasurementFiles m = read_measurements(files, {true}, Needs::kJointsAndPosition);
+    list_touched_points(m.tables, cell_.measurement);
+    assign_setups(cell_, files, m);
+    return m;
+  }
+  Summary errors(const std::string& text) {
+    return summary(problems_of([&] { read({text}); }));
+  }
+  Folder folder_;
+  Cell cell_;
+};
+
+TEST_F(TouchedRows, EachPointIsASetupAndAllShareOneTarget) {
+  const MeasurementFiles m = read(
+      {"q1_deg,point,position\n1,A,left\n2,B,left\n3,A,left\n4,B,left\n5,C,right\n6,C,right\n"});
+  const auto& setups = cell_.measurement.setups;
+  ASSERT_EQ(setups.size(), 3u);
+  EXPECT_EQ(m.setup, (std::vector<int>{0, 1, 0, 1, 2, 2}));
+  EXPECT_EQ(m.placement, (std::vector<int>{0, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(setups[1].name, "B");
+  EXPECT_EQ(setups[1].position, "left");
+  EXPECT_EQ(target_root(cell_.measurement, 2), 0);
+  EXPECT_TRUE(touches_point(cell_.measurement, 2));
+  EXPECT_TRUE(m.p_M.isZero(0.0));
+  EXPECT_TRUE(m.has_axis[0] && m.has_axis[1] && m.has_axis[2]);
+  EXPECT_TRUE(lacks_length(cell_));
+}
+
+TEST_F(TouchedRows, WithoutPositionsEachPointIsAPlacement) {
+  EXPECT_EQ(read({"q1_deg,point\n1,A\n2,B\n3,A\n4,B\n"}).placement, (std::vector<int>{0, 1, 0, 1}));
+}
+
+TEST_F(TouchedRows, StandBesideMeasuredPositionsOfAnotherFile) {
+  const MeasurementFiles m = read({"q1_deg,x_mm,y_mm\n1,2,3\n2,3,4\n", "q1_deg,point\n1,A\n2,A\n"});
+  EXPECT_EQ(m.setup, (std::vector<int>{0, 0, 1, 1}));
+  EXPECT_EQ(m.placement, (std::vector<int>{-1, -1, 0, 0}));
+  EXPECT_FALSE(m.has_axis[2]);
+  EXPECT_FALSE(m.touches_point(1));
+  EXPECT_TRUE(m.touches_point(2));
+  EXPECT_EQ(target_root(cell_.measurement, 1), 1);
+  EXPECT_FALSE(lacks_length(cell_));
+}
+
+TEST_F(TouchedRows, ALabelOfAMeasuredPositionIsNoPoint) {
+  const MeasurementFiles m = read({"q1_deg,point,x_mm\n1,A,2\n2,A,3\n"});
+  EXPECT_TRUE(cell_.measurement.setups.empty());
+  EXPECT_TRUE(m.placement.empty());
+}
+
+TEST_F(TouchedRows, KnownDistancesAreListedOnce) {
+  read({"q1_deg,point,to_point,distance_mm\n1,A,B,50\n2,A,B,50\n3,B,A,50\n4,B,A,50\n"});
+  const auto& lengths = cell_.measurement.lengths;
+  ASSERT_EQ(lengths.size(), 1u);
+  EXPECT_EQ(lengths[0].from, 0);
+  EXPECT_EQ(lengths[0].to, 1);
+  EXPECT_DOUBLE_EQ(lengths[0].length_m, 0.05);
+  EXPECT_FALSE(lacks_length(cell_));
+}
+
+TEST_F(TouchedRows, WhatContradictsIsRefusedWithItsPlace) {
+  EXPECT_EQ(errors("q1_deg,point\n1,A\n2,\n"), Summary{"E-CSV-POINT 3:3"});
+  EXPECT_EQ(errors("q1_deg,point,to_point,distance_mm\n1,A,B,50\n2,B,A,51\n"),
+            Summary{"E-CSV-POINT 3:7"});
+  EXPECT_EQ(errors("q1_deg,point,to_point,distance_mm\n1,A,C,50\n2,A,A,51\n"),
+            (Summary{"E-CSV-POINT 2:5", "E-CSV-POINT 3:5"}));
+  EXPECT_EQ(errors("q1_deg,point,to_point,distance_mm\n1,A,B,0\n2,B,A,1\n"),
+            Summary{"E-CSV-POINT 2:7"});
+  EXPECT_EQ(errors("q1_deg,point,to_point\n1,A,B\n2,B,A\n"), Summary{"E-CSV-POINT 1:14"});
+}
+
+TEST_F(TouchedRows, APointTouchedOnceIsNotUsed) {
+  const MeasurementFiles m = read({"q1_deg,point\n1,A\n2,A\n3,B\n"});
+  EXPECT_EQ(m.set[1], SetMark::kUnmarked);
+  EXPECT_EQ(m.set[2], SetMark::kIgnore);
+  EXPECT_EQ(summary(m.tables[0].remarks), Summary{"W-CSV-POINT 1:8"});
+}
+
+}  // namespace
+}  // namespace plumb::offline
