@@ -16,6 +16,7 @@
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/formula_proposal.hpp"
 #include "diagnose/forward_selection.hpp"
+#include "diagnose/held_out.hpp"
 #include "diagnose/held_out_predictions.hpp"
 #include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
@@ -72,11 +73,11 @@ struct Work {
 /// anew in each fold.
 HeldOutPredictions held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
                                const Calibration& fitted) {
-  HeldOutPredictions out(w.measured, w.split);
-  if (w.split.folds == 0) out.put(fitted, w.held);
+  HeldOutPredictions out(w.cell.measurement, w.measured, w.split);
+  if (w.split.folds == 0) out.put(fitted, w.fit, w.held);
   for (int k = 0; k < w.split.folds; ++k)
     out.put(refitted(w.cell, w.measured, fit_rows(w.split, k), effects, fitted),
-            held_rows(w.split, k));
+            fit_rows(w.split, k), held_rows(w.split, k));
   return out;
 }
 
@@ -93,7 +94,7 @@ bool chosen_in_folds(const Work& w, const std::vector<ForwardStep>& steps) {
 
 /// Held-out predictions where the effects are selected anew without each fold.
 HeldOutPredictions nested_held_out(const Work& w) {
-  HeldOutPredictions out(w.measured, w.split);
+  HeldOutPredictions out(w.cell.measurement, w.measured, w.split);
   for (int k = 0; k < w.split.folds; ++k) {
     if (w.request.tell)
       w.request.tell(fmt::format("step 4 of 4, fold {} of {}", k + 1, w.split.folds));
@@ -104,7 +105,8 @@ HeldOutPredictions nested_held_out(const Work& w) {
         w.not_testable, {});
     const ForwardSelection found =
         forward_selection(w.start(inside, true), base, at.whitened, at.look);
-    out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
+    out.put(found.steps.empty() ? base : found.steps.back().calibration, inside,
+            held_rows(w.split, k));
   }
   return out;
 }
@@ -236,6 +238,18 @@ void take_over_first(Diagnosis& out) {
     first.alone = first.after = added.held;
     first.alone_turns = added.turns;
   }
+}
+
+/// The candidates are judged to first order, with single touches of each point held out. Where
+/// whole placements are held out the error of the model as it is is larger, and theirs with it, to
+/// first order by the same factor.
+void as_by_placements(const WhitenedFit& plain, Diagnosis& out) {
+  if (plain.measured->placement.empty()) return;
+  const double by_touches = held_out_error(Scorer(plain)).points.mean;
+  if (!(by_touches > 0.0)) return;
+  for (Candidate& candidate : out.candidates)
+    for (ErrorStats* stats : {&candidate.alone, &candidate.after})
+      *stats = scaled(*stats, out.before.mean / by_touches);
 }
 
 /// Formulas for structure that this model leaves.
@@ -421,6 +435,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   w.bad.sigma_m = out.floor.sigma_m;
   w.bad.rows = held.bad_rows(w.bad.sigma_m);
   out.before = out.after = held.stats(w.bad);
+  as_by_placements(seen.plain, out);
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
   if (seen.plain.turns()) {
     const OrientationFloor floor = orientation_floor(cell, measured);

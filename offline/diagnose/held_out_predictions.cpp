@@ -5,21 +5,27 @@
 #include <utility>
 
 #include "arm/predicted_points.hpp"
+#include "fit/unseen_points.hpp"
 #include "noise/usual_errors.hpp"
 
 namespace plumb::offline {
 
-HeldOutPredictions::HeldOutPredictions(const Measurements& measured, const Split& split)
-    : measured_(&measured), rows_(held_rows(split)), predicted_(measured.p_M) {
+HeldOutPredictions::HeldOutPredictions(const MeasurementSettings& settings,
+                                       const Measurements& measured, const Split& split)
+    : settings_(&settings),
+      measured_(&measured),
+      rows_(held_rows(split)),
+      predicted_(measured.p_M) {
   if (measured.has_orientation()) turns_rad_ = Eigen::VectorXd::Zero(measured.size());
 }
 
-void HeldOutPredictions::put(const Calibration& calibration, const std::vector<int>& rows) {
-  const Measurements some = pick(*measured_, rows);
-  const Rows3 points = predict_points(calibration.state, some);
-  if (turns_rad_.size() > 0) turns_rad_(rows) = turn_errors(calibration.state, some);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
+void HeldOutPredictions::put(const Calibration& calibration, const std::vector<int>& fitted,
+                             const std::vector<int>& held) {
+  const Rows3 points = predict_held_out(*settings_, *measured_, fitted, held, calibration.state);
+  if (turns_rad_.size() > 0)
+    turns_rad_(held) = turn_errors(calibration.state, pick(*measured_, held));
+  for (std::size_t i = 0; i < held.size(); ++i)
+    predicted_.row(held[i]) = points.row(static_cast<Eigen::Index>(i));
 }
 
 std::vector<double> HeldOutPredictions::errors_m() const {

@@ -18,13 +18,15 @@ struct BadRows {
 };
 
 /// Predictions of the held-out poses, each by a model that was fitted without them. Refers to
-/// `measured`.
+/// `settings` and `measured`.
 class HeldOutPredictions {
  public:
-  HeldOutPredictions(const Measurements& measured, const Split& split);
+  HeldOutPredictions(const MeasurementSettings& settings, const Measurements& measured,
+                     const Split& split);
 
-  /// Predicts these rows.
-  void put(const Calibration& calibration, const std::vector<int>& rows);
+  /// Predicts the rows `held` by a model that was fitted to the rows `fitted`.
+  void put(const Calibration& calibration, const std::vector<int>& fitted,
+           const std::vector<int>& held);
 
   /// Rows that are outliers, if there are only a few; the verdict of a fit leaves the same ones
   /// out.
@@ -43,6 +45,7 @@ class HeldOutPredictions {
  private:
   std::set<int> far_rows(const std::vector<double>& errors_m, double sigma_m) const;
 
+  const MeasurementSettings* settings_;
   const Measurements* measured_;
   std::vector<int> rows_;
   Rows3 predicted_;

@@ -379,6 +379,7 @@ Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
       PriorLines(data, solution.state, fine.kept).distance_from_sisters(solution.state);
   if (unlike > kUnlikeSisters) out.remarks.push_back(unlike_sisters(std::sqrt(unlike)));
   out.iterations = coarse_iterations + solution.iterations;
+  data.touches = touch_density(*data.measured, data.rows, solution.state, candidates);
   out.rank = static_cast<int>(
       identifiable_parameters(data, solution.state, candidates, kRank).kept.size());
   return out;

@@ -111,11 +111,6 @@ void overwrite(Rows3& all, const std::vector<int>& rows, const Rows3& with) {
   for (std::size_t i = 0; i < rows.size(); ++i) all.row(rows[i]) = with.row(i);
 }
 
-Rows3 predicted_at(const ArmState& state, const Measurements& measured,
-                   const std::vector<int>& rows) {
-  return predict_points(state, pick(measured, rows));
-}
-
 /// Predictions of the three models that are compared, out of fold where a pose is held out.
 struct HeldPredictions {
   Rows3 nominal, geometry, full;
@@ -124,13 +119,10 @@ struct HeldPredictions {
 
 void predict_held(const Cell& cell, const Measurements& measured, const FittedModel& fitted,
                   const std::vector<int>& fit, const std::vector<int>& held, HeldPredictions& out) {
-  ArmState nominal = place_nominal(cell, measured, fit);
-  place_unseen_points(cell.measurement, measured, fit, nominal);
   const auto predict = [&](const ArmState& state, Rows3& all) {
-    overwrite(all, held, predicted_at(state, measured, held));
-    widen_about_unseen_points(cell.measurement, measured, fit, held, all);
+    overwrite(all, held, predict_held_out(cell.measurement, measured, fit, held, state));
   };
-  predict(nominal, out.nominal);
+  predict(place_nominal(cell, measured, fit), out.nominal);
   predict(fitted.geometry_only, out.geometry);
   predict(fitted.calibration.state, out.full);
   if (out.turn_errors.size() > 0)

@@ -38,17 +38,21 @@ void place_unseen_points(const MeasurementSettings& settings, const Measurements
   }
 }
 
-void widen_about_unseen_points(const MeasurementSettings& settings, const Measurements& measured,
-                               const std::vector<int>& fitted, const std::vector<int>& held,
-                               Rows3& predicted_M) {
+Rows3 predict_held_out(const MeasurementSettings& settings, const Measurements& measured,
+                       const std::vector<int>& fitted, const std::vector<int>& held,
+                       ArmState state) {
+  place_unseen_points(settings, measured, fitted, state);
+  Rows3 out = predict_points(state, pick(measured, held));
   const auto unseen = rows_of_unseen(settings, measured, fitted);
-  for (const int row : held) {
-    const auto at = unseen.find(setup_of(measured, row));
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const auto at = unseen.find(setup_of(measured, held[i]));
     if (at == unseen.end() || at->second.size() < 2) continue;
     const auto n = static_cast<double>(at->second.size());
-    const Eigen::RowVector3d from_point = predicted_M.row(row) - measured.p_M.row(row);
-    predicted_M.row(row) = measured.p_M.row(row) + std::sqrt(n / (n - 1.0)) * from_point;
+    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::RowVector3d point = measured.p_M.row(held[i]);
+    out.row(row) = point + std::sqrt(n / (n - 1.0)) * (out.row(row) - point);
   }
+  return out;
 }
 
 }  // namespace plumb::offline

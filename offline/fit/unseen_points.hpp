@@ -16,11 +16,11 @@ namespace plumb::offline {
 void place_unseen_points(const MeasurementSettings& settings, const Measurements& measured,
                          const std::vector<int>& fitted, ArmState& state);
 
-/// Moves the predictions of their rows away from the mean so that they are as far from it as from a
-/// point that is known otherwise: n readings about their own mean are closer by the factor
-/// sqrt(1 - 1/n). predicted_M: shape (rows of `measured`, 3).
-void widen_about_unseen_points(const MeasurementSettings& settings, const Measurements& measured,
-                               const std::vector<int>& fitted, const std::vector<int>& held,
-                               Rows3& predicted_M);
+/// What a model that was fitted to `fitted` predicts of the rows `held`, shape (held, 3). Those of
+/// unseen points are moved away from their mean so that they are as far from it as from a point
+/// that is known otherwise: n readings about their own mean are closer by the factor sqrt(1 - 1/n).
+Rows3 predict_held_out(const MeasurementSettings& settings, const Measurements& measured,
+                       const std::vector<int>& fitted, const std::vector<int>& held,
+                       ArmState state);
 
 }  // namespace plumb::offline

@@ -17,4 +17,9 @@ struct ErrorStats {
 
 ErrorStats summarise(std::vector<double> errors_m);
 
+/// The same of as many errors, all larger by this factor.
+inline ErrorStats scaled(const ErrorStats& stats, double times) {
+  return {stats.n, times * stats.mean, times * stats.rms, times * stats.p95, times * stats.max};
+}
+
 }  // namespace plumb::offline

@@ -6,15 +6,22 @@
 namespace plumb::offline {
 namespace {
 
+/// Whether the number turns all of the arm behind its first joint.
+bool turns_all(const Parameter& p) { return p.of_robot() && !p.of_effect() && p.joint == 0; }
+
 /// Columns of a row that touches a fixed point, whose residual from target to point is `missed_M`.
-/// A turn moves what is in the point rather than the target beside it: so the part of the arm
-/// behind a joint turns with the residual, which keeps its length. times, slopes: of TouchDensity.
-void shift_to_point(const Vector3& missed_M, double times, const Eigen::RowVectorXd& slopes,
-                    GeometryDerivative::Point& point) {
-  for (Eigen::Index k = 0; k < point.columns.cols(); ++k) {
-    const Vector3 turn = point.columns.col(k).tail<3>();
-    point.columns.col(k).head<3>() +=
-        cross<double>(turn, missed_M) + missed_M * (slopes(k) / times);
+/// The residual is seen from the first link: what turns all of the arm moves what is in the point
+/// rather than the target beside it, which a shift of the point makes good exactly. The gradient is
+/// the same, because a turn does not change how long the residual is. times, slopes: of
+/// TouchDensity.
+void see_from_first_link(const std::vector<Parameter>& parameters, const Vector3& missed_M,
+                         double times, const Eigen::RowVectorXd& slopes,
+                         GeometryDerivative::Point& point) {
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    auto column = point.columns.col(static_cast<Eigen::Index>(k));
+    if (turns_all(parameters[k]))
+      column.head<3>() += cross<double>(Vector3(column.tail<3>()), missed_M);
+    column.head<3>() += missed_M * (slopes(static_cast<Eigen::Index>(k)) / times);
   }
   point.columns.topRows<3>() /= times;
 }
@@ -48,7 +55,7 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
     if (point.undefined >= 0) return {i, point.undefined};
     Vector3 missed = (m.p_M.row(i) - point.p_M.transpose()).transpose();
     if (m.touches_point(i)) {
-      if (jacobian != nullptr) shift_to_point(missed, times, slopes_, point);
+      if (jacobian != nullptr) see_from_first_link(parameters_, missed, times, slopes_, point);
       missed /= times;
     }
     Vector3 turn = Vector3::Zero();
