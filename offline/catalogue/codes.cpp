@@ -180,6 +180,10 @@ constexpr Explanation kCodes[] = {
     {"E-DROP-NONE",
      "The model does not have that effect, or not at these joints or with these settings; nothing "
      "was changed. Geometry cannot be dropped: hold its parameters with [fit] fixed instead."},
+    {"E-PLAN-POINT",
+     "plumb plan chooses poses anywhere in the limits, for an instrument that measures where the "
+     "target is. The readings of this cell are of fixed points that the tool touches, and the arm "
+     "can only turn about these."},
     {"E-PLAN-BOX",
      "plan draws random poses within the joint limits and keeps those whose reflector lies in the "
      "box. None did: the box is out of reach, in another frame than the base, or in another unit "
@@ -201,9 +205,6 @@ constexpr Explanation kCodes[] = {
      "readings with two loads tell them apart. Which loads can be mounted is taken from --payload, "
      "else from the measurements if they were made with several, else from [robot] payload and the "
      "arm without it. None of these states a second one."},
-    {"N-PLAN-POINT",
-     "plumb plan chooses poses anywhere in the limits. The cell's own readings are of fixed points "
-     "that the tool touches, and the arm can only turn about these."},
     {"N-PLAN-SETUP",
      "New poses are chosen for one set-up, the first of the cell; what was measured in the others "
      "counts as known. The choice hardly depends on the set-up: what matters is the arm."},

@@ -12,7 +12,7 @@ namespace plumb::offline {
 std::vector<Problem> convention_findings(const Cell& cell, const Detection& d) {
   if (!d.why_not.empty())
     return {{Severity::kNote, "N-CHECK-CONVENTION", "conventions were not checked: " + d.why_not,
-             std::nullopt, "measure more poses"}};
+             std::nullopt, d.help}};
   const Convention& labels = d.present.convention;
   if (d.changed)
     return {{Severity::kError, "E-CHECK-CONVENTION",

@@ -243,6 +243,7 @@ Detection detect_convention(const Cell& cell, const MeasurementFiles& measured) 
     // Distances between points that are measured tell units and conventions. Here they are fitted.
     Detection out;
     out.why_not = "points that the tool touches do not tell units and conventions";
+    out.help = "if the fit is far from nominal: look at units, joint signs and the DH convention";
     out.present.convention = out.best.convention = labelled_convention(cell, measured);
     return out;
   }

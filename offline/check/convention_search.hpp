@@ -15,7 +15,8 @@ struct Detection {
   std::vector<Interpretation> table;  // best first, the present one included
   std::vector<Interpretation> same;   // others that predict the same points as the best
   long tried = 0;
-  std::string why_not;  // why nothing was tried: too few poses, …
+  std::string why_not;                      // why nothing was tried: too few poses, …
+  std::string help = "measure more poses";  // and what to do about it
   bool changed = false;
 };
 

@@ -114,6 +114,7 @@ std::string why_perhaps(const Copies& copies, double step_m) {
 }  // namespace
 
 std::vector<Problem> copy_findings(const MeasurementFiles& measured, const NoiseFloor& floor) {
+  if (!measured.placement.empty()) return {};  // every touch of a point reads the same
   const EqualRepeats chance = equal_by_rounding(measured, floor);
   const Copies copies = copies_of(measured, chance);
   if (copies.points.empty()) return {};

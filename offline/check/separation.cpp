@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "arm/neighbouring_axes.hpp"
+#include "cell/touched_points.hpp"
 #include "check/arm_shape.hpp"
 #include "check/constants.hpp"
 #include "numbers/pivoted_qr.hpp"
@@ -113,23 +114,23 @@ class Explainer {
   Separation sentence(const Parameter& p, const Mixture& here, bool seen, bool anywhere) const {
     using Cause = Separation::Cause;
     Separation out{Cause::kChoice, p.name, {}, 1.0, ""};
-    bool only_frame = true, only_target = true;
+    bool only_base = true, only_target = true;
     for (const int i : here.partners) {
       out.partners.push_back(kept_[i].name);
-      only_frame = only_frame && kept_[i].of_base();
+      only_base = only_base && kept_[i].of_base();
       only_target = only_target && kept_[i].kind == Parameter::Kind::kTarget;
     }
     const std::string with =
         out.partners.empty() ? "the rest" : fmt::format("{}", fmt::join(out.partners, ", "));
     const std::string cannot = fmt::format("{} cannot be separated from {}: ", p.name, with);
-    if (seen) {
+    if (!seen && only_base && p.of_robot() && !data_.measured->placement.empty()) {
+      out.text = p.name + " moves all of the arm: touched points do not tell where it stands";
+    } else if (seen) {
       out.cause = Cause::kWeak;
       out.text = fmt::format("{} is seen too weakly to be better than {}: {}", p.name,
                              p.of_effect() ? "none" : "nominal", reason(p, here));
-    } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_frame) {
-      out.text = cannot + (data_.measured->placement.empty()
-                               ? "both move the base; the fitted frame carries it"
-                               : "both move the base, or all points; nothing tells where it is");
+    } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_base) {
+      out.text = cannot + "both move the base; the fitted frame carries it";
     } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_target) {
       out.text = cannot + "both move the reflector on the flange; the fitted target carries it";
     } else if (!anywhere) {
@@ -235,6 +236,8 @@ class Explainer {
         const double rho = covariance(i, k) / (sigma(i) * sigma(k));
         const Parameter &a = kept_[i], &b = kept_[k];
         if (std::abs(rho) < check::kCorrelated || (!a.of_robot() && !b.of_robot())) continue;
+        // Points are as far as the arm is large; that nothing tells its size is said once.
+        if ((a.of_base() || b.of_base()) && lacks_length(cell_)) continue;
         Mixture both;
         both.partners = {static_cast<int>(k)};
         pairs.push_back(

@@ -374,7 +374,7 @@ Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
   Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
   if (judged) add_likeness(*judged, *cell.fit.earlier, data, solution, out);
-  if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell.fit));
+  if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell));
   const double unlike =
       PriorLines(data, solution.state, fine.kept).distance_from_sisters(solution.state);
   if (unlike > kUnlikeSisters) out.remarks.push_back(unlike_sisters(std::sqrt(unlike)));

@@ -80,14 +80,13 @@ Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
 PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
                    PosePlan& out) {
   if (touches_point(cell.measurement, 0))
-    out.remarks.push_back(
-        {.severity = Severity::kNote,
-         .code = "N-PLAN-POINT",
-         .message =
-             "the poses are chosen for measured positions: with the ball in a socket the arm "
-             "does not come to most of them",
-         .help = "in each socket, turn the tool about all axes as far as it goes"});
-  else if (const auto& setups = cell.measurement.setups; setups.size() > 1)
+    throw Failure(Exit::kInput,
+                  {.code = "E-PLAN-POINT",
+                   .message = "poses are planned for measured positions: with the ball in a socket "
+                              "the arm comes to none of them",
+                   .help = "in each socket turn the tool about all axes as far as it goes, at four "
+                           "places or more, high and low, near and far"});
+  if (const auto& setups = cell.measurement.setups; setups.size() > 1)
     out.remarks.push_back(
         {.severity = Severity::kNote,
          .code = "N-PLAN-SETUP",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "cell/touched_points.hpp"
 #include "solve/constants.hpp"
 
 namespace plumb::offline {
@@ -23,21 +24,26 @@ std::vector<std::string> names_of(const WeakDirections& weak) {
   return out;
 }
 
-Problem held_near_nominal(const WeakDirections& weak, const FitSettings& settings) {
+Problem held_near_nominal(const WeakDirections& weak, const Cell& cell) {
+  const FitSettings& settings = cell.fit;
   auto names = names_of(weak);
   std::string more;
   if (names.size() > kDirectionsListed) {
     more = fmt::format(" and {} more", names.size() - kDirectionsListed);
     names.resize(kDirectionsListed);
   }
-  return {.severity = Severity::kNote,
-          .code = "N-FIT-PRIOR",
-          .message =
-              fmt::format("these poses say little of {}{}: they are held near nominal, give "
-                          "or take {:g} mm and {:g} mrad",
-                          fmt::join(names, ", "), more, settings.prior_m * weak.built.lengths * 1e3,
-                          settings.prior_rad * weak.built.angles * 1e3),
-          .help = "to know them, measure poses all over the joint limits: plumb plan --n 30"};
+  return {
+      .severity = Severity::kNote,
+      .code = "N-FIT-PRIOR",
+      .message =
+          fmt::format("these poses say little of {}{}: they are held near nominal, give "
+                      "or take {:g} mm and {:g} mrad",
+                      fmt::join(names, ", "), more, settings.prior_m * weak.built.lengths * 1e3,
+                      settings.prior_rad * weak.built.angles * 1e3),
+      .help = lacks_length(cell)
+                  ? "nothing tells the size of the arm: state the distance of two touched points "
+                    "in columns to_point and distance_mm"
+                  : "to know them, measure poses all over the joint limits: plumb plan --n 30"};
 }
 
 }  // namespace plumb::offline

@@ -28,6 +28,6 @@ struct WeakDirections {
 std::vector<std::string> names_of(const WeakDirections& weak);
 
 /// N-FIT-PRIOR: which numbers of the arm are held near nominal, in words. `weak` is not empty.
-Problem held_near_nominal(const WeakDirections& weak, const FitSettings& settings);
+Problem held_near_nominal(const WeakDirections& weak, const Cell& cell);
 
 }  // namespace plumb::offline
