@@ -111,9 +111,6 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "The column 'point' says in every row which fixed point the tool touches: rows with one label "
      "touch one point. Where the distance between two of them is known, 'to_point' names the other "
      "one and 'distance_mm' says how far it is, the same in every row that states it."},
-    {"W-CSV-POINT",
-     "A touched point is known only by the rows that touch it. With one row it can be anywhere, "
-     "so that the row says nothing about the arm."},
     {"E-CSV-POSITION",
      "The measured point is missing: columns x_mm, y_mm, z_mm (or another unit of length). Planar "
      "arms may lack an axis; targets need all three. Rows in which the tool touches a fixed point "
@@ -258,6 +255,9 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"W-CSV-NAME",
      "Column names are in lower case. This one differs from a known name by its case only and is "
      "kept as a column of your own."},
+    {"W-CSV-POINT",
+     "A touched point is known only by the rows that touch it. With one row it can be anywhere, "
+     "so that the row says nothing about the arm."},
     {"W-CSV-POSE",
      "Rows of one pose name are repeats of one pose, but these differ by more than 0.02 rad or m. "
      "The noise floor would be far too large: give every pose its own name."},
