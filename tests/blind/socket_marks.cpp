@@ -11,14 +11,13 @@
 #include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/point_distances.hpp"
 #include "tests/cell/support.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kSockets = 10, kFresh = 200;
-/// A normal number lies within so many standard deviations in 95 % of all cases.
-constexpr double kIn95 = 1.96;
+constexpr int kSockets = 10;
 
 SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
   SocketPlan out;
@@ -43,22 +42,11 @@ std::string tracker_csv(SocketArm& arm, const SocketWay& way) {
 }
 
 double fresh_error(SocketArm& arm, const ArmState& state) {
-  Measurements fresh;
-  fresh.q.resize(kFresh, 6);
-  Rows3 truth(kFresh, 3);
-  for (int i = 0; i < kFresh; ++i) {
-    const SocketArm::Joints q = arm.random_joints();
-    for (std::size_t k = 0; k < 6; ++k) fresh.q(i, static_cast<Eigen::Index>(k)) = q[k];
-    truth.row(i) = arm.ball(q).transpose();
-  }
-  fresh.p_M = truth;
-  const Rows3 found = predict_points(state, fresh);
-  const Rows3 a = found.rowwise() - found.colwise().mean().eval();
-  const Rows3 b = truth.rowwise() - truth.colwise().mean().eval();
-  const Eigen::Matrix3d H = a.transpose() * b;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d R = svd.matrixV() * svd.matrixU().transpose();
-  return (a * R.transpose() - b).rowwise().norm().mean();
+  return arm.error_at_fresh_joints([&](const SocketArm::Joints& q) {
+    Measurements one;
+    one.q = Eigen::Map<const Eigen::RowVectorXd>(q.data(), 6);
+    return Eigen::Vector3d(predict_points(state, one).row(0).transpose());
+  });
 }
 
 /// The true value of "J3.a"; not a number for names of nothing that the simulated arm has.

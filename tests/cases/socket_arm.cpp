@@ -88,6 +88,23 @@ SocketArm::Joints SocketArm::random_joints() {
   return q;
 }
 
+double SocketArm::error_at_fresh_joints(
+    const std::function<Eigen::Vector3d(const Joints&)>& predicted) {
+  constexpr Eigen::Index kFresh = 200;
+  Eigen::Matrix3Xd found(3, kFresh), truth(3, kFresh);
+  for (Eigen::Index i = 0; i < kFresh; ++i) {
+    const Joints q = random_joints();
+    found.col(i) = predicted(q);
+    truth.col(i) = ball(q);
+  }
+  found.colwise() -= found.rowwise().mean().eval();
+  truth.colwise() -= truth.rowwise().mean().eval();
+  const Eigen::JacobiSVD<Matrix3d> svd(truth * found.transpose(),
+                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Matrix3d R = svd.matrixU() * svd.matrixV().transpose();
+  return (R * found - truth).colwise().norm().mean();
+}
+
 /// Newton's method from random joints, derivatives by differences.
 bool SocketArm::touch(const Vector3d& point, Joints& q) {
   for (int attempt = 0; attempt < 100; ++attempt) {

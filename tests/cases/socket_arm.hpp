@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ class SocketArm {
 
   /// Joint readings within the limits.
   Joints random_joints();
+
+  /// Mean distance [m] of predicted and true balls at 200 fresh joints, after the rigid motion that
+  /// lays the predicted ones on the true ones: where the base stands is open.
+  double error_at_fresh_joints(const std::function<Eigen::Vector3d(const Joints&)>& predicted);
 
   /// True rows theta, d, a, alpha of standard DH [rad, m].
   const std::array<std::array<double, 4>, 6>& rows() const { return rows_; }

@@ -55,28 +55,12 @@ bool has(const std::vector<Problem>& problems, const std::string& code) {
   return std::find(all.begin(), all.end(), code) != all.end();
 }
 
-/// Mean distance [m] between the calibrated and the true ball at fresh joints, after the rigid
-/// motion that lays one set of points on the other: where the base stands is open.
 double error_at_fresh_joints(Touched& touched, const ArmState& state) {
-  const int n = 200;
-  Measurements fresh;
-  fresh.q.resize(n, 6);
-  Rows3 truth(n, 3);
-  for (int i = 0; i < n; ++i) {
-    const SocketArm::Joints q = touched.arm.random_joints();
-    for (std::size_t k = 0; k < 6; ++k) fresh.q(i, static_cast<Eigen::Index>(k)) = q[k];
-    truth.row(i) = touched.arm.ball(q).transpose();
-  }
-  fresh.p_M = truth;
-  const Rows3 found = predict_points(state, fresh);
-  const Eigen::RowVector3d centre_found = found.colwise().mean(), centre = truth.colwise().mean();
-  const Eigen::Matrix3d H =
-      (found.rowwise() - centre_found).transpose() * (truth.rowwise() - centre);
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d R = svd.matrixV() * svd.matrixU().transpose();
-  const Rows3 left =
-      ((found.rowwise() - centre_found) * R.transpose()) - (truth.rowwise() - centre);
-  return left.rowwise().norm().mean();
+  return touched.arm.error_at_fresh_joints([&](const SocketArm::Joints& q) {
+    Measurements one;
+    one.q = Eigen::Map<const Eigen::RowVectorXd>(q.data(), 6);
+    return Eigen::Vector3d(predict_points(state, one).row(0).transpose());
+  });
 }
 
 TEST(TouchedPoints, ACalibrationFromThemIsTheTrueArm) {
