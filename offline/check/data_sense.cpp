@@ -123,6 +123,9 @@ DataSense data_sense(const Cell& cell, const MeasurementFiles& measured,
       any_column(measured, Quantity::kForce) || any_column(measured, Quantity::kTorque);
   out.noise_m = noise_floor(cell, measured).sigma_m;
   out.revisits = revisits(measured, rows);
+  out.positions = measured.placement.empty() || std::any_of(rows.begin(), rows.end(), [&](int row) {
+                    return !measured.touches_point(row);
+                  });
   for (const auto& table : measured.tables)
     for (const auto& [key, value] : table.comments)
       out.tracker_frame = out.tracker_frame || (key == "frame" && value == "tracker");

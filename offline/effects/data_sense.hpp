@@ -21,6 +21,7 @@ struct DataSense {
   bool has_payload = false;        // in the cell or as a column
   double noise_m = 0.0;            // 1 sigma per axis, 0 unknown
   int revisits = 0;                // poses measured again later than as an immediate repeat
+  bool positions = true;           // measured, not points that the tool touches
   bool tracker_frame = false;      // the origin of the coordinates is the instrument
   std::vector<std::string> names;  // of the joints
   std::vector<bool> turns;         // a turning joint

@@ -86,7 +86,7 @@ TEST(TouchedPoints, TellAsManyNumbersAsAClosedFormCountSays) {
 
 /// Least squares alone would make the arm smaller, and the more so the more the model lacks.
 TEST(TouchedPoints, DoNotShrinkTheArmWhereTheModelLacksAnEffect) {
-  Touched t({.seed = 3, .touches = 30, .yields_rad_per_Nm = 20e-6});
+  Touched t({.seed = 3, .touches = 30, .yields_rad_per_Nm = 60e-6});
   const Calibration c = calibrate(t.cell, t.measured, t.all_rows());
   const auto size = [](const format::Chain& chain) {
     double squares = 0.0;
@@ -95,7 +95,7 @@ TEST(TouchedPoints, DoNotShrinkTheArmWhereTheModelLacksAnEffect) {
     return std::sqrt(squares);
   };
   EXPECT_NEAR(size(c.state.arm.calibrated) / size(t.cell.nominal), 1.0, 1e-3);
-  // An effect is there: the arm misses by far more than the play of 30 um.
+  // An effect is there: the arm misses by more than the play of 30 um leaves, 48 um.
   const Rows3 left = residuals(t.measured, predict_points(c.state, t.measured));
   EXPECT_GT(left.rowwise().norm().mean(), 0.1e-3);
 }
