@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cell/table_place.hpp"
@@ -121,7 +123,10 @@ class PointList {
 
 bool touches(const Table& table) {
   const auto has = [&](const char* axis) { return table.find(axis) != nullptr; };
-  return text_column(table, "point") != nullptr && !has("x") && !has("y") && !has("z");
+  const Column* label = text_column(table, "point");
+  if (label == nullptr || has("x") || has("y") || has("z")) return false;
+  return std::set<std::string_view>(label->text.begin(), label->text.end()).size() <
+         label->text.size();
 }
 
 void list_touched_points(const std::vector<Table>& tables, MeasurementSettings& m) {

@@ -15,7 +15,8 @@
 /// and every residual is the vector from where the model has the target to the point.
 namespace plumb::offline {
 
-/// Whether the rows of the table touch fixed points.
+/// Whether the rows of the table touch fixed points: labels that are all different are names of
+/// measured points whose coordinates are missing.
 bool touches(const Table& table);
 
 /// Lists every point that these tables touch as a set-up of the cell, and every distance between

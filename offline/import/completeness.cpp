@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
+#include <string_view>
 
 #include "cell/column_names.hpp"
 #include "import/content.hpp"
@@ -158,13 +160,23 @@ std::string unused_names(const Imported& data) {
                      data.unused.size() > kListed ? ", ..." : "");
 }
 
+/// Whether the rows touch fixed points instead of having measured positions: the labels of points
+/// that a tracker measured are all different.
+bool touches_points(const Imported& data) {
+  const ImportedColumn* point = data.find("point");
+  if (point == nullptr) return false;
+  std::set<std::string_view> labels;
+  for (std::size_t i = 0; i < point->text.size(); ++i) labels.insert(point->text[i]);
+  return labels.size() < point->text.size();
+}
+
 }  // namespace
 
 std::optional<Problem> missing_for_calibration(const Imported& data, int joints) {
   const int last = last_joint(data);
   const auto lacking = missing_joints(data, std::max({1, last, joints}));
-  const bool no_point =
-      data.find("x") == nullptr && data.find("y") == nullptr && data.find("z") == nullptr;
+  const bool no_point = data.find("x") == nullptr && data.find("y") == nullptr &&
+                        data.find("z") == nullptr && !touches_points(data);
   if (lacking.empty() && !no_point) return std::nullopt;
   std::vector<std::string> what, wishes;
   if (last == 0)

@@ -67,6 +67,10 @@ TEST_F(TouchedRows, ALabelOfAMeasuredPositionIsNoPoint) {
   EXPECT_TRUE(m.placement.empty());
 }
 
+TEST_F(TouchedRows, LabelsThatAreAllDifferentAreNamesOfPositionsThatAreMissing) {
+  EXPECT_EQ(errors("q1_deg,point\n1,A\n2,B\n"), Summary{"E-CSV-POSITION 1:13"});
+}
+
 TEST_F(TouchedRows, KnownDistancesAreListedOnce) {
   read({"q1_deg,point,to_point,distance_mm\n1,A,B,50\n2,A,B,50\n3,B,A,50\n4,B,A,50\n"});
   const auto& lengths = cell_.measurement.lengths;
@@ -78,14 +82,13 @@ TEST_F(TouchedRows, KnownDistancesAreListedOnce) {
 }
 
 TEST_F(TouchedRows, WhatContradictsIsRefusedWithItsPlace) {
-  EXPECT_EQ(errors("q1_deg,point\n1,A\n2,\n"), Summary{"E-CSV-POINT 3:3"});
-  EXPECT_EQ(errors("q1_deg,point,to_point,distance_mm\n1,A,B,50\n2,B,A,51\n"),
-            Summary{"E-CSV-POINT 3:7"});
+  EXPECT_EQ(errors("q1_deg,point\n1,A\n2,A\n3,\n"), Summary{"E-CSV-POINT 4:3"});
+  const std::string known = "q1_deg,point,to_point,distance_mm\n1,A,B,50\n2,B,A,";
+  EXPECT_EQ(errors(known + "51\n3,A,,1\n"), Summary{"E-CSV-POINT 3:7"});
+  EXPECT_EQ(errors(known + "0\n3,A,,1\n"), Summary{"E-CSV-POINT 3:7"});
   EXPECT_EQ(errors("q1_deg,point,to_point,distance_mm\n1,A,C,50\n2,A,A,51\n"),
             (Summary{"E-CSV-POINT 2:5", "E-CSV-POINT 3:5"}));
-  EXPECT_EQ(errors("q1_deg,point,to_point,distance_mm\n1,A,B,0\n2,B,A,1\n"),
-            Summary{"E-CSV-POINT 2:7"});
-  EXPECT_EQ(errors("q1_deg,point,to_point\n1,A,B\n2,B,A\n"), Summary{"E-CSV-POINT 1:14"});
+  EXPECT_EQ(errors("q1_deg,point,to_point\n1,A,B\n2,A,B\n"), Summary{"E-CSV-POINT 1:14"});
 }
 
 TEST_F(TouchedRows, APointTouchedOnceIsNotUsed) {

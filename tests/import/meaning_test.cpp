@@ -354,6 +354,11 @@ TEST(Import, WhatACalibrationLacksIsNamedWithItsCandidates) {
   const Imported whole = imported("q1_deg,q2_deg,x_mm\n1,2,3\n4,5,6\n");
   EXPECT_FALSE(missing_for_calibration(whole, 2).has_value());
   EXPECT_TRUE(has(missing_for_calibration(whole, 3)->message, "q3 of an arm of 3 joints"));
+  // Rows that touch fixed points need no position; points of a tracker all have names of their own.
+  const Imported touched = imported("q1_deg,point\n1,A\n2,B\n3,A\n");
+  EXPECT_FALSE(missing_for_calibration(touched, 1).has_value());
+  const Imported named = imported("q1_deg,point\n1,A\n2,B\n3,C\n");
+  EXPECT_TRUE(has(missing_for_calibration(named, 1)->message, "the measured position"));
 }
 
 TEST(Timestamps, DatesOfManyCountriesCountTheSameSeconds) {
