@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/effect_arguments.hpp"
+#include "cell/touched_points.hpp"
 #include "diagnose/certainty.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_domain.hpp"
@@ -22,11 +23,11 @@ std::string separating(const Cell& cell, const EffectEntry& a, const EffectEntry
 }
 
 constexpr const char* kMeasure = "plan --n 30   # which poses to measure next";
+constexpr const char* kWhatShows =
+    "check   # what touched points can show, and what else to measure";
 constexpr const char* kCompile = "compile   # the model file for the controller";
 
-}  // namespace
-
-std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
+std::vector<std::string> steps_after(const Cell& cell, const Diagnosis& d) {
   if (d.gravity && d.gravity->certain)
     return {"diagnose   # once cell.toml says gravity = " + gravity_text(d.gravity->found)};
   const Finding finding = d.finding_after.value_or(d.finding);
@@ -62,6 +63,16 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
         return {separating(cell, d.undecided->entry, other.entry)};
   if (d.tied) return {separating(cell, d.candidates.front().entry, *d.tied)};
   return {good_enough(cell, d.after) ? kCompile : kMeasure};
+}
+
+}  // namespace
+
+std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
+  std::vector<std::string> out = steps_after(cell, d);
+  // Poses are not planned for an arm that touches fixed points.
+  for (std::string& step : out)
+    if (touches_point(cell.measurement, 0) && step.starts_with("plan ")) step = kWhatShows;
+  return out;
 }
 
 }  // namespace plumb::offline

@@ -7,6 +7,7 @@
 
 #include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
+#include "cell/touched_points.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/certainty.hpp"
 #include "diagnose/confounding.hpp"
@@ -154,9 +155,11 @@ std::string telling_words(const Cell& cell, const EffectEntry& first,
   std::string out;
   for (const auto& other : others) {
     if (!other.not_shown.empty()) continue;
-    out = fmt::format("To tell them apart: {} (plumb plan --separate {},{}).",
-                      separating_measurement(first, other.entry), planning_argument(cell, first),
-                      planning_argument(cell, other.entry));
+    out = "To tell them apart: " + separating_measurement(first, other.entry);
+    if (!touches_point(cell.measurement, 0))
+      out += fmt::format(" (plumb plan --separate {},{})", planning_argument(cell, first),
+                         planning_argument(cell, other.entry));
+    out += ".";
     break;
   }
   for (const auto& other : others) {

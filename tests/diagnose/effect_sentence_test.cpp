@@ -141,6 +141,17 @@ TEST(EffectSentence, WhatIsCertainNeedsNoMeasurementToBeSure) {
   }
 }
 
+/// Poses cannot be planned for an arm whose ball rests in a socket.
+TEST(EffectSentence, WhatTouchedPointsCannotTellIsNotToBePlanned) {
+  Cell cell = three_joints();
+  Diagnosis d;
+  d.finding = Finding::kUndecidable;
+  const auto next = [&] { return after_diagnosis(cell, d).front(); };
+  EXPECT_TRUE(next().starts_with("plan ")) << next();
+  cell.measurement.setups.emplace_back().is_point = true;
+  EXPECT_TRUE(next().starts_with("check ")) << next();
+}
+
 TEST(VerdictClass, IsThatOfTheFindingAndOfWhatTheDataAreGoodFor) {
   EXPECT_STREQ(show::class_of(Finding::kComplete), "good");
   for (const Finding finding : {Finding::kMissing, Finding::kUnknown, Finding::kUndecidable})

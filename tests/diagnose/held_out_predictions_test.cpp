@@ -42,9 +42,9 @@ struct HeldOutPoses : testing::Test {
     return out;
   }
   HeldOutPredictions predicted(const Calibration& of_even, const Calibration& of_odd) const {
-    HeldOutPredictions out(measured, split);
-    out.put(of_even, even);
-    out.put(of_odd, odd);
+    HeldOutPredictions out(settings, measured, split);
+    out.put(of_even, odd, even);
+    out.put(of_odd, even, odd);
     return out;
   }
   void spoil(const std::vector<int>& rows, double by_m = 2e-3) {
@@ -52,6 +52,7 @@ struct HeldOutPoses : testing::Test {
   }
   static BadRows bad(std::set<int> rows) { return {std::move(rows), kSigma_m}; }
 
+  MeasurementSettings settings;
   Measurements measured;
   Split split;
   std::vector<int> even, odd;
@@ -69,8 +70,8 @@ TEST_F(HeldOutPoses, EachErrIsThatOfTheModelThatWasFittedWithoutIt) {
 
 TEST_F(HeldOutPoses, ThatArePredictedAnewCountAsLastPredicted) {
   HeldOutPredictions out = predicted(off_by(1.0), off_by(1.0));
-  out.put(right, even);
-  out.put(right, odd);
+  out.put(right, odd, even);
+  out.put(right, even, odd);
   EXPECT_LT(out.stats(bad({})).max, 10.0 * kSigma_m);
 }
 
@@ -80,8 +81,8 @@ TEST_F(HeldOutPoses, AreThoseOfTheSplitAlone) {
   split.used.assign(kRows, true);
   split.held.assign(kRows, false);
   for (const int row : {3, 8, 40}) split.held[static_cast<std::size_t>(row)] = true;
-  HeldOutPredictions out(measured, split);
-  out.put(right, {3, 8, 40});
+  HeldOutPredictions out(settings, measured, split);
+  out.put(right, {}, {3, 8, 40});
   EXPECT_EQ(out.stats(bad({})).n, 3);
 }
 

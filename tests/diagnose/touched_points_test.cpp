@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is missing in an arm that touches sockets, simulated with kinematics of its own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnose/diagnosis.hpp"
+#include "fit/cell_data.hpp"
+#include "fit/fit_cell.hpp"
+#include "tests/cases/socket_arm.hpp"
+#include "tests/cell/support.hpp"
+
+namespace plumb::offline {
+namespace {
+
+struct Sockets {
+  explicit Sockets(const SocketPlan& plan) : arm(plan) {
+    const auto file = folder.put("cell.toml", arm.cell_toml());
+    folder.put("measurements.csv", arm.measurements_csv());
+    cell = read_cell(file);
+    cell.measurement.sigma_m = plan.play_m;
+    measured = read_cell_measurements(cell);
+  }
+  Folder folder;
+  SocketArm arm;
+  Cell cell;
+  MeasurementFiles measured;
+};
+
+bool is_load(const std::string& effect) {
+  return effect == "gravity_free" || effect == "joint_compliance" || effect == "link_flexure";
+}
+
+TEST(TouchedPointsDiagnosis, FindsThatJointsYieldAndSaysTheErrorThatTheFitSays) {
+  Sockets s({.seed = 21, .touches = 25, .yields_rad_per_Nm = 60e-6, .known_distance = true});
+  const Diagnosis d = diagnose(s.cell, s.measured, {});
+  ASSERT_FALSE(d.candidates.empty());
+  EXPECT_TRUE(is_load(d.candidates.front().entry.name)) << d.text;
+  const Fit fit = fit_cell(s.cell, s.measured, {});
+  EXPECT_NEAR(d.before.mean, fit.held.mean, 0.02 * fit.held.mean);
+  EXPECT_LT(d.candidates.front().alone.mean, d.before.mean);
+}
+
+TEST(TouchedPointsDiagnosis, FindsNothingWhereNothingIsHidden) {
+  Sockets s({.seed = 22, .touches = 25, .known_distance = true});
+  const Diagnosis d = diagnose(s.cell, s.measured, {});
+  EXPECT_EQ(d.finding, Finding::kComplete) << d.text;
+  EXPECT_TRUE(std::any_of(d.not_testable.begin(), d.not_testable.end(),
+                          [](const Testable& t) { return t.effect == "tracker"; }));
+}
+
+}  // namespace
+}  // namespace plumb::offline
