@@ -343,6 +343,8 @@ Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
                     const std::vector<Parameter>& candidates, HeldNear held) {
   FitData data = whole;  // its sigma is the stated one
   const ArmState nominal = nominal_state(cell, *whole.measured);
+  // An arm may be far from where the fit began, where the density was linear.
+  data.touches = touch_density(*whole.measured, whole.rows, coarse.solution.state, candidates);
   data.rows = coarse.data.rows;
   std::optional<LikenessJudgement> judged;
   if (cell.fit.earlier) {
@@ -362,6 +364,7 @@ Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
   // Weak directions depend on the noise of the instrument, not on effects that the model lacks.
   FitData stated = whole;
   stated.arm = data.arm;
+  stated.touches = data.touches;
   data.weak = held_directions(stated, solution.state, fine.kept, held);
   const int coarse_iterations = solution.iterations;
   if (has_series(solution.state)) {
