@@ -83,6 +83,10 @@ constexpr Explanation kCodes[] = {
      "Measure some of its poses again: plumb plan --recheck proposes them."},
     {"E-RECHECK-NONE",
      "Every reading of the file has 'ignore' in its column set, so there is nothing to compare."},
+    {"E-RECHECK-POINT",
+     "plumb recheck compares measured positions with those that the run predicts. Of a fixed point "
+     "that the tool touches only the joints are known, and where the points are is fitted. Fit new "
+     "touches together with the earlier ones."},
     {"E-RECHECK-RUN",
      "This run cannot be rechecked: cell.toml no longer has the numbers that it fitted, or it "
      "stands "

@@ -9,6 +9,8 @@
 #include "cell/lost_points.hpp"
 #include "cell/measurement_reader.hpp"
 #include "cell/reading_digest.hpp"
+#include "cell/setups.hpp"
+#include "cell/touched_points.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/cell_lock.hpp"
 #include "cli/next_line.hpp"
@@ -46,10 +48,26 @@ bool of_calibration(const MeasurementFiles& rows, const MeasurementFiles& own) {
   return count_known(rows, reading_digests(own)) == rows.size();
 }
 
+/// Refuses (E-RECHECK-POINT) fixed points that the tool touches, on either side: whether an arm is
+/// still the same is judged by positions in one frame.
+void refuse_touches(const Cell& cell, const MeasurementFiles& rows) {
+  const bool of_rows = touches(rows.tables.front());
+  if (!of_rows && !touches_point(cell.measurement, setup_count(cell.measurement) - 1)) return;
+  throw Failure(Exit::kInput,
+                {.code = "E-RECHECK-POINT",
+                 .message = of_rows ? "rows that touch fixed points do not tell where the arm is: "
+                                      "they are fitted, not compared"
+                                    : "this arm was calibrated from points that its tool touched: "
+                                      "nothing says where a tracker stands",
+                 .help = "fit the new rows beside the old ones: add the file to files in "
+                         "[measurement], and plumb fit"});
+}
+
 /// Refuses (E-RECHECK-OWN) the readings of the calibration itself.
 NewReadings new_readings(const std::string& file, const Cell& cell, const MeasurementFiles& own,
                          Outcome& outcome) {
   MeasurementFiles all = read_measurements({file}, cell.nominal, Needs::kJointsAndPosition);
+  refuse_touches(cell, all);
   ignore_lost_points(cell, all);
   const Table& table = all.tables.front();
   outcome.inputs.push_back({table.file, table.sha256});

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// An arm without a tracker, from its touches to the model file: docs/without-a-tracker.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sandbox.hpp"
+#include "tests/cases/socket_arm.hpp"
+
+namespace {
+
+using plumb::offline::SocketArm;
+
+class Touched : public testing::Test {
+ protected:
+  Touched() : arm_({.seed = 31, .known_distance = true}) {
+    box_.write("cell.toml", arm_.cell_toml());
+    box_.write("measurements.csv", arm_.measurements_csv());
+  }
+  SocketArm arm_;
+  Sandbox box_;
+};
+
+TEST_F(Touched, PointsAreFittedListedAndCompiled) {
+  const Ran fit = box_.plumb({"fit", "--json"});
+  ASSERT_EQ(fit.exit, 0) << fit.err;
+  const auto points = fit.json()["result"]["points"];
+  EXPECT_TRUE(points["size_known"].get<bool>());
+  ASSERT_EQ(points["touched"].size(), arm_.sockets().size());
+  EXPECT_EQ(points["touched"][0]["name"], "0/0");
+  ASSERT_EQ(points["distances"].size(), 6u);
+  for (const auto& one : points["distances"]) {
+    EXPECT_NEAR(one["distance_mm"].get<double>(), 80.0, 0.15);
+    EXPECT_EQ(one["stated_mm"], 80.0);
+  }
+  const Ran text = box_.plumb({"compare"});
+  EXPECT_EQ(text.exit, 0) << text.err;
+  EXPECT_EQ(box_.plumb({"compile"}).exit, 0);
+}
+
+TEST_F(Touched, CheckSaysWhatPointsCannotTell) {
+  const Ran check = box_.plumb({"check"});
+  EXPECT_EQ(check.exit, 0) << check.err;
+  EXPECT_NE((check.out + check.err).find("touches do not tell units"), std::string::npos);
+  EXPECT_EQ((check.out + check.err).find("W-CHECK-COPY"), std::string::npos);
+}
+
+TEST_F(Touched, WhatNeedsMeasuredPositionsIsRefused) {
+  const Ran plan = box_.plumb({"plan", "--n", "5"});
+  EXPECT_EQ(plan.exit, 3);
+  EXPECT_NE(plan.err.find("E-PLAN-POINT"), std::string::npos) << plan.err;
+  ASSERT_EQ(box_.plumb({"fit"}).exit, 0);
+  box_.write("tracker.csv",
+             "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n1,2,3,4,5,6,500,0,300\n");
+  const Ran recheck = box_.plumb({"recheck", "--data", "tracker.csv"});
+  EXPECT_EQ(recheck.exit, 3);
+  EXPECT_NE(recheck.err.find("E-RECHECK-POINT"), std::string::npos) << recheck.err;
+}
+
+}  // namespace
