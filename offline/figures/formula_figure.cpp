@@ -10,6 +10,7 @@
 #include "figures/joint_residual.hpp"
 #include "figures/law_figures.hpp"
 #include "figures/words.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -19,7 +20,6 @@ using draw::Tone;
 constexpr std::size_t kMostFormulaPoints = 400;  // in each panel
 constexpr std::size_t kFormulaSteps = 60;        // of a curve of one input
 constexpr std::size_t kFewFormulaSteps = 9;      // of a mean over several
-constexpr double kFormula95 = 1.96;
 
 const char* unit_of(const FormulaPoints& one) { return one.turns ? "µrad" : "µm"; }
 
@@ -41,8 +41,8 @@ FormulaCurve curve_of(const FormulaPoints& one) {
       input += 1e-6 * share * pose.input, law += share * pose.law, sigma += share * pose.sigma;
     }
     out.middle.push_back({input, law});
-    out.low.push_back({input, law - kFormula95 * sigma});
-    out.high.push_back({input, law + kFormula95 * sigma});
+    out.low.push_back({input, law - kNormal95 * sigma});
+    out.high.push_back({input, law + kNormal95 * sigma});
   }
   return out;
 }

@@ -11,6 +11,7 @@
 #include "figures/joint_law.hpp"
 #include "figures/joint_residual.hpp"
 #include "figures/words.hpp"
+#include "numbers/tails.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
@@ -22,8 +23,7 @@ using draw::Tone;
 constexpr std::size_t kMostPoints = 500, kMostSmallPoints = 200;  // of a figure, of a small one
 constexpr double kOverMedian = 1.5;  // of the ranges of the joints: the locked scale
 constexpr int kLawPoints = 181;      // of the curve of a fitted law
-constexpr double kLaw95 = 1.96;
-constexpr double kStandOut = 2.0;  // half-widths of the 95 % interval: far beyond chance
+constexpr double kStandOut = 2.0;    // half-widths of the 95 % interval: far beyond chance
 
 /// Half the height of the axis: it holds the curve and all points but the outermost hundredth.
 double half_range(const JointResidual& joint) {
@@ -223,7 +223,7 @@ WithLaw with_law(const RunResults& results, const JointResidual& joint) {
     for (int k = 0; k < kLawPoints; ++k) {
       const double q = from + (to - from) * k / (kLawPoints - 1);
       const auto [value, sigma] = law.at(q, side);
-      curve.points.push_back({q, value, kLaw95 * sigma});
+      curve.points.push_back({q, value, kNormal95 * sigma});
       out.low = std::min(out.low, value), out.high = std::max(out.high, value);
     }
     out.curves.push_back(std::move(curve));

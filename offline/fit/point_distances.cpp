@@ -8,7 +8,7 @@
 
 #include "cell/touched_points.hpp"
 #include "fit/constants.hpp"
-#include "plumb/runtime/transform.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -23,19 +23,23 @@ Eigen::Index index_of(const MeasurementSettings& settings, const Calibration& c,
 
 }  // namespace
 
+Vector3 touched_point_B(const Calibration& c, int setup) {
+  return -from_pose(c.state.frame(setup)).p;
+}
+
 PointDistance point_distance(const MeasurementSettings& settings, const Calibration& c, int from,
                              int to) {
   PointDistance out;
   out.from = from;
   out.to = to;
-  const Vector3 apart = from_pose(c.state.frame(to)).p - from_pose(c.state.frame(from)).p;
+  const Vector3 apart = touched_point_B(c, from) - touched_point_B(c, to);
   out.length_m = apart.norm();
   const Eigen::Index a = index_of(settings, c, from), b = index_of(settings, c, to);
   if (a < 0 || b < 0 || out.length_m == 0.0 || c.covariance.rows() < std::max(a, b) + 3) return out;
   Eigen::VectorXd along = Eigen::VectorXd::Zero(c.covariance.rows());
-  along.segment<3>(a) = -apart / out.length_m;
-  along.segment<3>(b) = apart / out.length_m;
-  out.half_m = kIn95 * std::sqrt(std::max(0.0, along.dot(c.covariance * along)));
+  along.segment<3>(a) = apart / out.length_m;
+  along.segment<3>(b) = -apart / out.length_m;
+  out.half_m = kNormal95 * std::sqrt(std::max(0.0, along.dot(c.covariance * along)));
   return out;
 }
 

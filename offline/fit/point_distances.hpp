@@ -7,11 +7,12 @@
 
 #include "cell/cell.hpp"
 #include "fit/calibration.hpp"
+#include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline {
 
-/// A normal number lies within so many standard deviations in 95 % of all cases.
-inline constexpr double kIn95 = 1.96;
+/// Where a touched point is in the base frame [m].
+Vector3 touched_point_B(const Calibration& calibration, int setup);
 
 /// How far two touched points are from each other by the calibrated arm.
 struct PointDistance {

@@ -11,6 +11,7 @@
 #include "cell/touched_points.hpp"
 #include "fit/constants.hpp"
 #include "fit/point_distances.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -22,7 +23,7 @@ std::string name_of(const MeasurementSettings& m, int setup) {
 void find_contradicted(const MeasurementSettings& m, const Calibration& c,
                        std::vector<Problem>& out) {
   for (const PointDistance& d : point_distances(m, c)) {
-    const double sigma = std::hypot(m.sigma_length_m, d.half_m / kIn95);
+    const double sigma = std::hypot(m.sigma_length_m, d.half_m / kNormal95);
     if (!d.stated_m || std::abs(d.length_m - *d.stated_m) <= kSureBeyond_sigma * sigma) continue;
     out.push_back(
         {.severity = Severity::kWarning,

@@ -18,6 +18,9 @@ struct FTest {
 };
 FTest f_test(double explained, double numbers, double left, double free);
 
+/// Standard deviations within which a normal number lies in 95 % of all cases.
+inline constexpr double kNormal95 = 1.96;
+
 /// The value that Student's t with `dof` > 0 degrees of freedom exceeds with probability 1 - share.
 double student_quantile(double share, double dof);
 

@@ -76,7 +76,7 @@ LastSetup last_setup(const Run& run) {
       if (p.setup != (frame ? c.state.frame_of(last) : c.state.target_of(last))) continue;
       p.setup = 0;
       if (const auto dot = p.name.rfind('.'); dot != std::string::npos)
-        p.name = (frame ? p.name.substr(0, 5) : "target") + p.name.substr(dot);
+        p.name = (frame ? "frame" : "target") + p.name.substr(dot);
     }
     out.known.parameters.push_back(std::move(p));
     kept.push_back(i);

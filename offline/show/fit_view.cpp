@@ -136,9 +136,9 @@ void add_points(const Cell& cell, const Calibration& c, Json& out) {
   Json points = Json::array(), distances = Json::array();
   for (int k = 0; k < c.state.setups(); ++k) {
     if (!touches_point(m, k)) continue;
-    const auto& f = c.state.frame(k).p;
+    const Vector3 p = touched_point_B(c, k);
     points.push_back({{"name", m.setups[static_cast<std::size_t>(k)].name},
-                      {"position_mm", {to_mm(-f[0]), to_mm(-f[1]), to_mm(-f[2])}}});
+                      {"position_mm", {to_mm(p(0)), to_mm(p(1)), to_mm(p(2))}}});
   }
   if (points.empty()) return;
   for (const PointDistance& d : point_distances(m, c)) {
@@ -164,8 +164,8 @@ Blocks points_blocks(const Cell& cell, const Calibration& c) {
   for (int k = 0; k < c.state.setups(); ++k) {
     if (!touches_point(m, k)) continue;
     if (!first) first = k;
-    const auto& f = c.state.frame(k).p;
-    table.add({m.setups[static_cast<std::size_t>(k)].name, mm(-f[0]), mm(-f[1]), mm(-f[2])});
+    const Vector3 p = touched_point_B(c, k);
+    table.add({m.setups[static_cast<std::size_t>(k)].name, mm(p(0)), mm(p(1)), mm(p(2))});
   }
   if (!first) return {};
   const auto& t = c.state.target(*first).p;

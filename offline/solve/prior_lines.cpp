@@ -122,8 +122,10 @@ std::vector<PriorLines::KnownDistance> PriorLines::distances(
     const auto at = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
       return p.kind == Parameter::Kind::kPoint && p.setup == setup && p.component == 0;
     });
-    const auto left = parameters.end() - at;
-    return left >= 3 && (at + 2)->setup == setup ? at - parameters.begin() : Eigen::Index{-1};
+    // All three are fitted only where z of the same point is two behind x.
+    const bool all = parameters.end() - at >= 3 && (at + 2)->kind == Parameter::Kind::kPoint &&
+                     (at + 2)->setup == setup;
+    return all ? at - parameters.begin() : Eigen::Index{-1};
   };
   for (const KnownLength& length : data.cell->measurement.lengths) {
     const Eigen::Index from = first_of(length.from), to = first_of(length.to);

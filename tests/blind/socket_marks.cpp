@@ -11,7 +11,7 @@
 #include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/point_distances.hpp"
+#include "numbers/tails.hpp"
 #include "tests/cell/support.hpp"
 
 namespace plumb::offline {
@@ -78,7 +78,7 @@ void judge(const SocketWay& way, std::uint64_t seed, SocketMarks& out) {
       const double truth = true_value(arm, e.name);
       if (!e.of_robot || std::isnan(truth)) continue;
       ++out.numbers;
-      if (std::abs(e.value - truth) <= kIn95 * e.std) ++out.inside;
+      if (std::abs(e.value - truth) <= kNormal95 * e.std) ++out.inside;
     }
   } catch (const Failure& failure) {
     if (failure.exit_code() != Exit::kNumbersSayNo) throw;
