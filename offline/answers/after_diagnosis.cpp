@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "cell/artefacts.hpp"
 #include "cell/effect_arguments.hpp"
-#include "cell/touched_points.hpp"
 #include "diagnose/certainty.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_domain.hpp"
@@ -71,7 +71,7 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
   std::vector<std::string> out = steps_after(cell, d);
   // Poses are not planned for an arm that touches fixed points.
   for (std::string& step : out)
-    if (touches_point(cell.measurement, 0) && step.starts_with("plan ")) step = kWhatShows;
+    if (of_artefact(cell.measurement, 0) && step.starts_with("plan ")) step = kWhatShows;
   return out;
 }
 

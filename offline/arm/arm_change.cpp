@@ -58,6 +58,10 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
       case Kind::kPoint:
         out.frame(p.setup).p[p.component] -= change(i);
         break;
+      case Kind::kArtefactLength:
+        out.length(p.setup) += change(i);
+        break;
+      case Kind::kPlane:
       case Kind::kFrame:
       case Kind::kTargetRotation:
       case Kind::kEffect:
@@ -75,6 +79,11 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
     if (!shift.isZero(0.0) || !turn.isZero(0.0))
       out.frame(k) = to_pose(from_pose(start.frame(k)) * translation(shift(0), shift(1), shift(2)) *
                              turned(turn));
+    // A plane turns and shifts about the axes of its own frame.
+    const Vector3 tilt = gathered(parameters, change, Kind::kPlane, 1, k);
+    const double rise = gathered(parameters, change, Kind::kPlane, 0, k)(0);
+    if (!tilt.isZero(0.0)) out.frame(k).q = to_pose(turned(tilt) * from_pose(start.frame(k))).q;
+    if (rise != 0.0) out.frame(k).p[2] += rise;
     const Vector3 target_turn = gathered(parameters, change, Kind::kTargetRotation, 0, k);
     if (!target_turn.isZero(0.0))
       out.target(k).q = to_pose(from_pose({{}, start.target(k).q}) * turned(target_turn)).q;
@@ -97,6 +106,11 @@ double value_of(const ArmState& state, const Parameter& parameter) {
     case Kind::kPoint:
       // The frame has the axes of the base and stands in the point.
       return -state.frame(parameter.setup).p[parameter.component];
+    case Kind::kPlane:
+      if (parameter.component == 0) return state.frame(parameter.setup).p[2];
+      return rotation_vector(from_pose(state.frame(parameter.setup)).R)(parameter.component - 1);
+    case Kind::kArtefactLength:
+      return state.length(parameter.setup);
     case Kind::kTargetRotation:
       return rotation_vector(from_pose(state.target(parameter.setup)).R)(parameter.component);
     default:

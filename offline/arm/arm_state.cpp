@@ -19,5 +19,9 @@ const format::Pose& ArmState::target(int setup) const {
   const int k = target_of(setup);
   return k == 0 ? X_TG : more[k - 1].X_TG;
 }
+double& ArmState::length(int setup) { return setup == 0 ? length_m : more[setup - 1].length_m; }
+double ArmState::length(int setup) const {
+  return setup == 0 ? length_m : more[setup - 1].length_m;
+}
 
 }  // namespace plumb::offline

@@ -15,15 +15,17 @@ namespace plumb::offline {
 /// With several set-ups (cell/setups.hpp), X_MB and X_TG are those of the first, and `more` holds
 /// those of the others. A set-up may share the frame or the reflector of an earlier one.
 struct ArmState {
-  format::Model arm;  // calibrated chain, trees, domain; the rest may be empty
-  format::Pose X_MB;  // base in the measurement frame
-  format::Pose X_TG;  // reflector (gauge) in the tool frame
+  format::Model arm;      // calibrated chain, trees, domain; the rest may be empty
+  format::Pose X_MB;      // base in the measurement frame
+  format::Pose X_TG;      // reflector (gauge) in the tool frame
+  double length_m = 0.0;  // of an artefact of the first set-up: reading_geometry.hpp
 
   struct Placing {
     int frame_of = 0;   // index of the set-up whose frame it uses: its own, or an earlier one
     int target_of = 0;  // the same for the reflector
     format::Pose X_MB;  // used if frame_of is this set-up
     format::Pose X_TG;  // used if target_of is this set-up
+    double length_m = 0.0;
     bool operator==(const Placing&) const = default;
   };
   std::vector<Placing> more = {};  // of the second set-up and those after it
@@ -35,6 +37,8 @@ struct ArmState {
   format::Pose& target(int setup);
   const format::Pose& frame(int setup) const;
   const format::Pose& target(int setup) const;
+  double& length(int setup);
+  double length(int setup) const;
 };
 
 /// The set-up in which row `row` was measured.

@@ -41,12 +41,13 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
       wave_of_(state_.arm.effects.size(), -1),
       sensors_(temperature_names(state_.arm)) {
   twists_.reserve(parameters.size());
-  std::vector<Matrix3> frame_turns, target_turns;  // by set-up, from the start on
+  std::vector<Matrix3> frame_turns, plane_turns, target_turns;  // by set-up, from the start on
   for (int k = 0; k < start.setups(); ++k) {
     X_MB_.push_back(from_pose(state_.frame(k)));
     X_TG_.push_back(from_pose(state_.target(k)));
     frame_turns.push_back(from_pose(start.frame(k)).R *
                           left_jacobian(gathered(parameters, change, Kind::kFrame, 3, k)));
+    plane_turns.push_back(left_jacobian(gathered(parameters, change, Kind::kPlane, 1, k)));
     target_turns.push_back(
         from_pose({{}, start.target(k).q}).R *
         left_jacobian(gathered(parameters, change, Kind::kTargetRotation, 0, k)));
@@ -63,6 +64,14 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
            p.setup});
     } else if (p.kind == Kind::kPoint) {
       twists_.push_back({kSlotFrame, -axis(p.component), Vector3::Zero(), p.setup});
+    } else if (p.kind == Kind::kPlane) {
+      const bool shift = p.component == 0;
+      twists_.push_back(
+          {kSlotFrame, shift ? axis(2) : Vector3::Zero(),
+           shift ? Vector3::Zero() : Vector3(plane_turns[p.setup] * axis(p.component - 1)),
+           p.setup});
+    } else if (p.kind == Kind::kArtefactLength) {
+      twists_.push_back({kSlotFrame, Vector3::Zero(), Vector3::Zero(), p.setup});
     } else if (p.kind == Kind::kTarget) {
       twists_.push_back({kSlotTarget, axis(p.component), Vector3::Zero(), p.setup});
     } else if (p.kind == Kind::kTargetRotation) {

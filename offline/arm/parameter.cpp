@@ -57,19 +57,19 @@ std::string of_setup(const MeasurementSettings& m, int setup) {
   return name.empty() ? "." : "[" + name + "].";
 }
 
-/// "frame.x", with several set-ups "frame[day 2].x". A shared frame or target belongs to the first
-/// set-up that has it.
+/// "frame.x", with several set-ups "frame[day 2].x", of artefacts "plane[table].z". A shared frame
+/// or target belongs to the first set-up that has it.
 void add_placing_candidates(const MeasurementSettings& m, Orientation orientation,
                             std::vector<Parameter>& out) {
   for (int s = 0; s < setup_count(m); ++s) {
     const Setup rule = setup_rule(m, s);
     const std::string of = of_setup(m, s);
     const auto add = [&](Kind kind, int component, const char* pose_name) {
-      const char* what = kind == Kind::kFrame ? "frame" : kind == Kind::kPoint ? "point" : "target";
+      const char* what = kind == Kind::kFrame ? "frame" : "target";
       out.push_back({kind, 0, component, what + of + pose_name, s});
     };
-    if (rule.is_point)
-      for (int k = 0; k < 3; ++k) add(Kind::kPoint, k, kPoseNames[k]);
+    if (rule.is_artefact())
+      for (Parameter& p : artefact_parameters(m, s)) out.push_back(std::move(p));
     else if (rule.fit_frame && frame_root(m, s) == s)
       for (int k = 0; k < 6; ++k) add(Kind::kFrame, k, kPoseNames[k]);
     if (!rule.fit_target || target_root(m, s) != s) continue;
@@ -86,8 +86,11 @@ bool Parameter::is_length() const {
     case Kind::kD:
     case Kind::kA:
     case Kind::kPoint:
+    case Kind::kArtefactLength:
     case Kind::kTarget:
       return true;
+    case Kind::kPlane:
+      return component == 0;
     case Kind::kLinkTwist:
     case Kind::kFrame:
       return component < 3;
@@ -97,8 +100,7 @@ bool Parameter::is_length() const {
 }
 
 bool Parameter::of_robot() const {
-  return kind != Kind::kFrame && kind != Kind::kPoint && kind != Kind::kTarget &&
-         kind != Kind::kTargetRotation;
+  return !of_base() && kind != Kind::kTarget && kind != Kind::kTargetRotation;
 }
 
 double reach(const format::Chain& chain) {
@@ -109,8 +111,20 @@ std::string frame_prefix(const MeasurementSettings& settings, int setup) {
   return "frame" + of_setup(settings, setup);
 }
 
-std::string point_prefix(const MeasurementSettings& settings, int setup) {
-  return "point" + of_setup(settings, setup);
+std::string artefact_prefix(const MeasurementSettings& settings, int setup) {
+  return descriptor_of(setup_rule(settings, setup).reads).noun + of_setup(settings, setup);
+}
+
+std::vector<Parameter> artefact_parameters(const MeasurementSettings& settings, int setup) {
+  const Setup& rule = settings.setups[static_cast<std::size_t>(setup)];
+  const std::string prefix = artefact_prefix(settings, setup);
+  const bool plane = rule.reads == ReadingKind::kPlane || rule.reads == ReadingKind::kHeight;
+  std::vector<Parameter> out;
+  for (int k = 0; k < 3; ++k)
+    out.push_back(
+        {plane ? Kind::kPlane : Kind::kPoint, 0, k, prefix + kPoseNames[plane ? k + 2 : k], setup});
+  if (rule.fit_length) out.push_back({Kind::kArtefactLength, 0, 0, prefix + "length", setup});
+  return out;
 }
 
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {

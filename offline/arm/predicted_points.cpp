@@ -7,6 +7,7 @@
 #include "arm/effect_binding.hpp"
 #include "arm/measured_arm.hpp"
 #include "numbers/jobs.hpp"
+#include "observe/reading.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -69,6 +70,8 @@ Rows3 predict_points(const ArmState& state, const Measurements& at) {
                     : arm.predict(row_of(at.q, i), {});
     out.row(i) = (X_MB * (predicted.X_BT * placed.X_TG[setup].p)).transpose();
     if (departed) out.row(i) += at.departure_B.row(i) * X_MB.R.transpose();
+    if (at.of_artefact(i))
+      out.row(i) = read_at(at.kind_of(i), Vector3(out.row(i)), state.length(setup_of(at, i)));
   });
   return out;
 }
@@ -104,8 +107,11 @@ Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured)
 
 Rows3 residuals(const Measurements& measured, const Rows3& predicted) {
   Rows3 out = measured.p_M - predicted;
-  for (int k = 0; k < 3; ++k)
-    if (!measured.has_axis[k]) out.col(k).setZero();
+  for (int k = 0; k < 3; ++k) {
+    if (measured.kind.empty() && !measured.has_axis[k]) out.col(k).setZero();
+    for (Eigen::Index i = 0; i < out.rows() && !measured.kind.empty(); ++i)
+      if (!measured.reads(i, k)) out(i, k) = 0.0;
+  }
   return out;
 }
 

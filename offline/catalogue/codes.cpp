@@ -84,9 +84,9 @@ constexpr Explanation kCodes[] = {
     {"E-RECHECK-NONE",
      "Every reading of the file has 'ignore' in its column set, so there is nothing to compare."},
     {"E-RECHECK-POINT",
-     "plumb recheck compares measured positions with those that the run predicts. Of a fixed point "
-     "that the tool touches only the joints are known, and where the points are is fitted. Fit new "
-     "touches together with the earlier ones."},
+     "plumb recheck compares measured positions with those that the run predicts. Where the tool "
+     "touches a fixed point or a plane, or a wire is read, nobody knows where these are but the "
+     "fit. Fit new readings together with the earlier ones."},
     {"E-RECHECK-RUN",
      "This run cannot be rechecked: cell.toml no longer has the numbers that it fitted, or it "
      "stands "
@@ -186,8 +186,8 @@ constexpr Explanation kCodes[] = {
      "was changed. Geometry cannot be dropped: hold its parameters with [fit] fixed instead."},
     {"E-PLAN-POINT",
      "plumb plan chooses poses anywhere in the limits, for an instrument that measures where the "
-     "target is. The readings of this cell are of fixed points that the tool touches, and the arm "
-     "can only turn about these."},
+     "target is. The readings of this cell are about fixed points, planes or anchors, whose places "
+     "are not planned yet."},
     {"E-PLAN-BOX",
      "plan draws random poses within the joint limits and keeps those whose reflector lies in the "
      "box. None did: the box is out of reach, in another frame than the base, or in another unit "
@@ -612,8 +612,9 @@ constexpr Explanation kCodes[] = {
      "more than three of its standard deviations from what the fit found, which took it into "
      "account: it is wrong, in another unit, or a point moved half-way."},
     {"W-FIT-POINT-MOVED",
-     "From some row on the tool meets a touched point elsewhere: its socket was bumped, or it is "
-     "another socket. Its residuals are the evidence, earlier ones against later ones."},
+     "From some row on the tool meets a touched point or a plane elsewhere: it was bumped, or it "
+     "is "
+     "another one. Its residuals are the evidence, earlier ones against later ones."},
     {"W-FIT-POINT-SAME",
      "Two labels of touched points end at one place. As one point their readings would say more "
      "about the arm."},

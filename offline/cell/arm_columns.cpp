@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/artefacts.hpp"
 #include "cell/column_names.hpp"
 #include "cell/context_columns.hpp"
 #include "cell/rotation.hpp"
 #include "cell/table_place.hpp"
-#include "cell/touched_points.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -137,7 +137,7 @@ ArmColumns find_arm_columns(const Table& table, const std::vector<bool>& joint_i
   ArmColumns out;
   out.q = find_joints(table, "q", joint_is_angle, problems);
   out.p = find_axes(table, "");
-  if (needs == Needs::kJointsAndPosition && count(out.p) == 0 && !touches(table))
+  if (needs == Needs::kJointsAndPosition && count(out.p) == 0 && !reads_artefact(table))
     problems.error("E-CSV-POSITION", "no measured position",
                    place_of_missing(table, "'x_mm', 'y_mm', 'z_mm' are missing"),
                    "rename the tracker's columns to x_mm, y_mm, z_mm; where the tool touches "

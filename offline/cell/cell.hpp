@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cell/reading_kind.hpp"
 #include "effects/effect_entry.hpp"
 #include "plumb/format/model.hpp"
 #include "program/problem.hpp"
@@ -58,10 +59,13 @@ struct Setup {
   format::Pose X_MB;            // base in the measurement frame, if not fitted
   std::optional<int> frame_of;  // stands where that earlier set-up stands
   bool fit_target = true;
-  std::array<double, 3> target_T{};  // reflector in the tool frame [m], if not fitted
-  std::optional<int> target_of;      // has the reflector of that earlier set-up
-  bool is_point = false;             // its rows touch one fixed point: touched_points.hpp
-  std::string position = {};         // of a point: the placement of its artefact
+  std::array<double, 3> target_T{};            // reflector in the tool frame [m], if not fitted
+  std::optional<int> target_of;                // has the reflector of that earlier set-up
+  ReadingKind reads = ReadingKind::kPosition;  // what its rows read: artefacts.hpp
+  std::string position = {};                   // of an artefact: where it was placed
+  double length_m = 0.0;  // radius of a sphere, or how much less a wire reads than the distance
+  bool fit_length = false;
+  bool is_artefact() const { return reads != ReadingKind::kPosition; }
   Place place = {};
 };
 
@@ -80,7 +84,7 @@ struct MeasurementSettings {
   std::array<double, 3> target_T{};     // reflector in the tool frame [m], if not fitted
   std::optional<double> sigma_m;        // 1 sigma per axis
   std::optional<double> sigma_rad;      // 1 sigma per axis of measured orientations (sigma_urad)
-  std::optional<double> sigma_touch_m;  // the same of touched points
+  std::optional<double> sigma_touch_m;  // the same of readings of artefacts
   HeldOutRule held_out;
   std::uint64_t seed = 1;
   std::vector<Setup> setups;  // none: one, as above

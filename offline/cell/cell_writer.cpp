@@ -170,7 +170,7 @@ class CellWriter {
          toml_string(held_out()));
     line("seed = {}\n", m.seed);
     for (const auto& one : m.setups)
-      if (!one.is_point) setup(one);
+      if (!one.is_artefact()) setup(one);
   }
 
   void setup(const Setup& s) {

@@ -109,12 +109,17 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "one of the two."},
     {"E-CSV-POINT",
      "The column 'point' says in every row which fixed point the tool touches: rows with one label "
-     "touch one point. Where the distance between two of them is known, 'to_point' names the other "
+     "touch one point. In the same way 'plane', 'sphere' and 'anchor' name what the other readings "
+     "without a tracker are about; a file has one of them. 'height_mm' is how far the tool is "
+     "above "
+     "the plane, 'radius_mm' is that of the sphere, the same in all of its rows, and 'distance_mm' "
+     "or 'extension_mm' is what was read at the anchor. Where the distance between two of them is "
+     "known, 'to_point' names the other "
      "one and 'distance_mm' says how far it is, the same in every row that states it."},
     {"E-CSV-POSITION",
      "The measured point is missing: columns x_mm, y_mm, z_mm (or another unit of length). Planar "
      "arms may lack an axis; targets need all three. Rows in which the tool touches a fixed point "
-     "name it in a column 'point' instead."},
+     "name it in a column 'point' instead, and so do 'plane', 'sphere' and 'anchor'."},
     {"E-CSV-QUATERNION",
      "The quaternion's length is off by more than 0.001. Often the order is another one (scalar "
      "last) or the decimals were cut. Smaller deviations are normalised."},
@@ -257,7 +262,9 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "kept as a column of your own."},
     {"W-CSV-POINT",
      "A touched point is known only by the rows that touch it. With one row it can be anywhere, "
-     "so that the row says nothing about the arm."},
+     "so that the row says nothing about the arm. The same holds for three rows of a plane, and "
+     "for "
+     "three or, with an unknown radius or zero, four of a sphere or an anchor."},
     {"W-CSV-POSE",
      "Rows of one pose name are repeats of one pose, but these differ by more than 0.02 rad or m. "
      "The noise floor would be far too large: give every pose its own name."},

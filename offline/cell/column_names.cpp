@@ -20,6 +20,7 @@ const Names& unitless_names() {
       {"time", Quantity::kText},   {"joint", Quantity::kText},    {"type", Quantity::kText},
       {"status", Quantity::kText}, {"setup", Quantity::kText},    {"repeat", Quantity::kNumber},
       {"point", Quantity::kText},  {"to_point", Quantity::kText}, {"position", Quantity::kText},
+      {"plane", Quantity::kText},  {"sphere", Quantity::kText},   {"anchor", Quantity::kText},
       {"fold", Quantity::kNumber}, {"qw", Quantity::kNumber},     {"qx", Quantity::kNumber},
       {"qy", Quantity::kNumber},   {"qz", Quantity::kNumber},     {"pqw", Quantity::kNumber},
       {"pqx", Quantity::kNumber},  {"pqy", Quantity::kNumber},    {"pqz", Quantity::kNumber},
@@ -31,10 +32,10 @@ const Names& unitless_names() {
 
 const Names& names_with_unit() {
   static const Names names = [] {
-    Names out{{"payload", Quantity::kMass},
-              {"temp", Quantity::kTemperature},
-              {"t", Quantity::kTime},
-              {"distance", Quantity::kLength}};
+    Names out{{"payload", Quantity::kMass},     {"temp", Quantity::kTemperature},
+              {"t", Quantity::kTime},           {"distance", Quantity::kLength},
+              {"extension", Quantity::kLength}, {"height", Quantity::kLength},
+              {"radius", Quantity::kLength}};
     for (const char* axis : {"x", "y", "z"}) {
       out.emplace(std::string("f") + axis, Quantity::kForce);
       out.emplace(std::string("m") + axis, Quantity::kTorque);

@@ -83,7 +83,7 @@ void warn(MeasurementFiles& measured, const std::vector<int>& lost) {
 void ignore_lost_points(const Cell& cell, MeasurementFiles& measured) {
   std::map<int, std::vector<int>> setups;
   for (int i = 0; i < measured.size(); ++i)
-    if (measured.set[static_cast<std::size_t>(i)] != SetMark::kIgnore && !measured.touches_point(i))
+    if (measured.set[static_cast<std::size_t>(i)] != SetMark::kIgnore && !measured.of_artefact(i))
       setups[measured.setup.empty() ? 0 : measured.setup[static_cast<std::size_t>(i)]].push_back(i);
   const double farthest_m = farthest(cell, measured);
   std::vector<int> lost;

@@ -8,13 +8,13 @@
 
 #include "cell/arm_columns.hpp"
 #include "cell/arm_reach.hpp"
+#include "cell/artefacts.hpp"
 #include "cell/contexts.hpp"
 #include "cell/last_moves.hpp"
 #include "cell/measurement_warnings.hpp"
 #include "cell/replicates.hpp"
 #include "cell/table_file.hpp"
 #include "cell/table_place.hpp"
-#include "cell/touched_points.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -82,7 +82,7 @@ class Assembler {
   void check_agreement() {
     const std::size_t with = first_with_positions();
     for (std::size_t i = with + 1; i < tables_.size(); ++i)
-      for (int k = 0; k < 3 && !touches(tables_[i]); ++k)
+      for (int k = 0; k < 3 && !reads_artefact(tables_[i]); ++k)
         agree(with, i, "xyz"[k], columns_[with].p[k], columns_[i].p[k]);
     drop_unless_everywhere(
         "orientation", [](ArmColumns& c) { return c.has_orientation(); },
@@ -97,10 +97,10 @@ class Assembler {
 
   static bool given(const AxisColumns& columns) { return columns != AxisColumns{}; }
 
-  /// The first table whose rows do not touch fixed points; how many tables there are if all do.
+  /// The first table whose rows have measured positions; how many tables there are if none has.
   std::size_t first_with_positions() const {
-    return static_cast<std::size_t>(std::find_if_not(tables_.begin(), tables_.end(), touches) -
-                                    tables_.begin());
+    return static_cast<std::size_t>(
+        std::find_if_not(tables_.begin(), tables_.end(), reads_artefact) - tables_.begin());
   }
 
   void agree(std::size_t with, std::size_t i, char axis, bool first, bool here) {
@@ -148,18 +148,32 @@ class Assembler {
     m_.quat_M.resize(c.has_orientation() ? rows : 0, 4);
     m_.sigma_m = Rows3::Zero(given(c.sigma) ? rows : 0, 3);
     m_.nominal_B = Rows3::Zero(given(c.nominal) ? rows : 0, 3);
-    // A point that is touched is known about all three axes.
-    if (const std::size_t with = first_with_positions(); with < tables_.size())
-      for (int k = 0; k < 3; ++k) m_.has_axis[k] = columns_[with].p[k] != nullptr;
+    if (std::any_of(tables_.begin(), tables_.end(), reads_artefact))
+      m_.kind.resize(static_cast<std::size_t>(rows), ReadingKind::kPosition);
+    if (!tables_.empty()) m_.has_axis = axes();
     m_.pose.reserve(rows);
     m_.set.reserve(rows);
     file_.reserve(rows);
+  }
+
+  /// The axes of measured positions; without any, those that a reading of an artefact has.
+  std::array<bool, 3> axes() const {
+    std::array<bool, 3> out{};
+    const std::size_t with = first_with_positions();
+    for (std::size_t k = 0; k < 3; ++k)
+      out[k] = with < tables_.size()
+                   ? columns_[with].p[k] != nullptr
+                   : std::any_of(tables_.begin(), tables_.end(), [&](const Table& table) {
+                       return descriptor_of(kind_of(table)).reads[k];
+                     });
+    return out;
   }
 
   void fill(Table& table, const ArmColumns& c, int first) {
     for (int row = 0; row < table.rows(); ++row)
       for (std::size_t k = 0; k < c.q.size(); ++k) m_.q(first + row, k) = c.q[k]->values[row];
     copy(table, c.p, first, m_.p_M);
+    if (reads_artefact(table)) fill_readings(table, first);
     copy(table, c.sigma, first, m_.sigma_m);
     copy(table, c.nominal, first, m_.nominal_B);
     name_rows(table, c.pose, first);
@@ -168,6 +182,16 @@ class Assembler {
       if (!c.has_orientation()) continue;
       const auto q = orientation(table, c, row, problems_);
       m_.quat_M.row(first + row) << q[0], q[1], q[2], q[3];
+    }
+  }
+
+  void fill_readings(const Table& table, int first) {
+    const ReadingDescriptor& kind = descriptor_of(kind_of(table));
+    const Column* value = value_column(table);
+    for (int row = 0; row < table.rows(); ++row) {
+      m_.kind[static_cast<std::size_t>(first + row)] = kind.kind;
+      for (int k = 0; k < 3 && value != nullptr; ++k)
+        if (kind.reads[static_cast<std::size_t>(k)]) m_.p_M(first + row, k) = value->values[row];
     }
   }
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include "cell/measurements.hpp"
 
 namespace plumb::offline {
@@ -57,12 +60,25 @@ std::vector<Table> pick_tables(const std::vector<Table>& all, const std::vector<
 
 }  // namespace
 
+double Measurements::mean_axes() const {
+  const auto all = static_cast<double>(std::count(has_axis.begin(), has_axis.end(), true));
+  if (kind.empty()) return all;
+  double sum = 0.0;
+  for (int i = 0; i < size(); ++i) sum += axes(i);
+  return size() > 0 ? sum / size() : all;
+}
+
+int Measurements::usual_axes() const {
+  return std::max(1, static_cast<int>(std::lround(mean_axes())));
+}
+
 Measurements pick(const Measurements& all, const std::vector<int>& rows) {
   Measurements out;
   out.pose = picked(all.pose, rows);
   out.replicate_group = picked(all.replicate_group, rows);
   out.set = picked(all.set, rows);
   out.setup = picked(all.setup, rows);
+  out.kind = picked(all.kind, rows);
   out.placement = picked(all.placement, rows);
   out.file = picked(all.file, rows);
   out.q = picked(all.q, rows);

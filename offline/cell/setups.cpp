@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "cell/artefacts.hpp"
 #include "cell/table_place.hpp"
-#include "cell/touched_points.hpp"
 #include "program/problem_list.hpp"
 
 namespace plumb::offline {
@@ -41,8 +41,7 @@ int setup_of_file(const MeasurementSettings& m, const fs::path& file) {
 
 /// The column whose texts name the set-ups of the rows, or null.
 const Column* setup_column(const Table& table) {
-  const Column* column = table.find(touches(table) ? "point" : "setup");
-  return column != nullptr && column->quantity == Quantity::kText ? column : nullptr;
+  return reads_artefact(table) ? artefact_column(table) : table.find_text("setup");
 }
 
 /// Finds the set-up of each row of one table.
@@ -51,8 +50,8 @@ class Assigner {
   Assigner(const MeasurementSettings& settings, ProblemList& problems)
       : m_(settings),
         problems_(problems),
-        alone_(settings.setups.size() > 1 && !settings.setups[0].is_point &&
-               settings.setups[1].is_point) {}
+        alone_(settings.setups.size() > 1 && !settings.setups[0].is_artefact() &&
+               settings.setups[1].is_artefact()) {}
 
   /// by_file: the set-up that names the file, or -1.
   void assign(const Table& table, int by_file, std::vector<int>& out) {
@@ -104,7 +103,7 @@ class Assigner {
 
   const MeasurementSettings& m_;
   ProblemList& problems_;
-  bool alone_;  // all rows that touch no point belong to the first set-up
+  bool alone_;  // all rows with positions belong to the first set-up
   std::set<std::string> reported_;
 };
 

@@ -16,4 +16,9 @@ const Column* Table::find(std::string_view name) const {
   return nullptr;
 }
 
+const Column* Table::find_text(std::string_view name) const {
+  const Column* column = find(name);
+  return column != nullptr && column->quantity == Quantity::kText ? column : nullptr;
+}
+
 }  // namespace plumb::offline

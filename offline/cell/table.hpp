@@ -35,6 +35,7 @@ struct Table {
   std::vector<Problem> remarks;
   int rows() const { return static_cast<int>(lines.size()); }
   const Column* find(std::string_view name) const;
+  const Column* find_text(std::string_view name) const;  // null if it holds numbers
 };
 
 /// Index of the table of each row, if the tables are joined: 0, ..., 0, 1, ...

@@ -242,7 +242,9 @@ Detection detect_convention(const Cell& cell, const MeasurementFiles& measured) 
   if (!measured.placement.empty()) {
     // Distances between points that are measured tell units and conventions. Here they are fitted.
     Detection out;
-    out.why_not = "points that the tool touches do not tell units and conventions";
+    out.why_not =
+        "readings about points, planes or anchors that are fitted as well do not tell "
+        "units and conventions";
     out.help = "if the fit is far from nominal: look at units, joint signs and the DH convention";
     out.present.convention = out.best.convention = labelled_convention(cell, measured);
     return out;

@@ -124,7 +124,7 @@ DataSense data_sense(const Cell& cell, const MeasurementFiles& measured,
   out.noise_m = noise_floor(cell, measured).sigma_m;
   out.revisits = revisits(measured, rows);
   out.positions = measured.placement.empty() || std::any_of(rows.begin(), rows.end(), [&](int row) {
-                    return !measured.touches_point(row);
+                    return !measured.of_artefact(row);
                   });
   for (const auto& table : measured.tables)
     for (const auto& [key, value] : table.comments)

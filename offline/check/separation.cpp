@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "arm/neighbouring_axes.hpp"
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
 #include "check/arm_shape.hpp"
 #include "check/constants.hpp"
 #include "numbers/pivoted_qr.hpp"

@@ -6,11 +6,11 @@
 
 #include "arm/effect_binding.hpp"
 #include "arm/known_inputs.hpp"
+#include "cell/artefacts.hpp"
 #include "cell/lost_points.hpp"
 #include "cell/measurement_reader.hpp"
 #include "cell/reading_digest.hpp"
 #include "cell/setups.hpp"
-#include "cell/touched_points.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/cell_lock.hpp"
 #include "cli/next_line.hpp"
@@ -51,8 +51,8 @@ bool of_calibration(const MeasurementFiles& rows, const MeasurementFiles& own) {
 /// Refuses (E-RECHECK-POINT) fixed points that the tool touches, on either side: whether an arm is
 /// still the same is judged by positions in one frame.
 void refuse_touches(const Cell& cell, const MeasurementFiles& rows) {
-  const bool of_rows = touches(rows.tables.front());
-  if (!of_rows && !touches_point(cell.measurement, setup_count(cell.measurement) - 1)) return;
+  const bool of_rows = reads_artefact(rows.tables.front());
+  if (!of_rows && !of_artefact(cell.measurement, setup_count(cell.measurement) - 1)) return;
   throw Failure(Exit::kInput,
                 {.code = "E-RECHECK-POINT",
                  .message = of_rows ? "rows that touch fixed points do not tell where the arm is: "

@@ -40,8 +40,7 @@ LackOfFit lack_of_fit(const Measurements& measured, const Rows3& fit_error_M,
                       const std::vector<int>& rows, int parameters, const NoiseFloor& floor) {
   using Basis = LackOfFit::Basis;
   LackOfFit out;
-  const auto axes =
-      static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
+  const int axes = measured.usual_axes();
   const GroupSquares s = squares_of(measured, fit_error_M, rows);
   const bool repeated = s.repeats >= kEnoughRepeats && s.pure > 0.0;
   if (!repeated && !(floor.sigma_m > 0.0)) return out;

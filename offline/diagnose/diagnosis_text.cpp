@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "cell/artefacts.hpp"
 #include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
-#include "cell/touched_points.hpp"
 #include "diagnose/alternatives.hpp"
 #include "diagnose/certainty.hpp"
 #include "diagnose/confounding.hpp"
@@ -156,7 +156,7 @@ std::string telling_words(const Cell& cell, const EffectEntry& first,
   for (const auto& other : others) {
     if (!other.not_shown.empty()) continue;
     out = "To tell them apart: " + separating_measurement(first, other.entry);
-    if (!touches_point(cell.measurement, 0))
+    if (!of_artefact(cell.measurement, 0))
       out += fmt::format(" (plumb plan --separate {},{})", planning_argument(cell, first),
                          planning_argument(cell, other.entry));
     out += ".";

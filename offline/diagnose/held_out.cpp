@@ -11,15 +11,16 @@
 namespace plumb::offline {
 namespace {
 
-/// Calls visit(whitened lines, lines in m and rad) for each pose.
+/// Calls visit(reading, whitened lines, lines in m and rad) for each pose.
 template <class Visit>
 void visit_errors(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines,
                   const Visit& visit) {
   for (Eigen::Index i = 0; i < at.size(); ++i) {
-    const Eigen::VectorXd white = lines.segment(s.table.begin(i), s.table.count(i));
+    const Eigen::Index pose = at.begin + i;
+    const Eigen::VectorXd white = lines.segment(s.table.count(at.begin, pose), s.table.count(pose));
     Eigen::VectorXd error = white;
-    unwhiten(s, at.begin + i, error);
-    visit(white, error);
+    unwhiten(s, pose, error);
+    visit(s.reading[static_cast<std::size_t>(pose)], white, error);
   }
 }
 
@@ -28,14 +29,15 @@ struct Norms {
   std::vector<double> points_m, turns_rad;
 
   void add(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines) {
-    visit_errors(s, at, lines, [&](const Eigen::VectorXd&, const Eigen::VectorXd& error) {
-      points_m.push_back(error.head(s.reading.point_lines()).norm());
-      if (s.turns()) turns_rad.push_back(error.tail(s.reading.turn_lines()).norm());
-    });
+    visit_errors(s, at, lines,
+                 [&](const Reading& reading, const Eigen::VectorXd&, const Eigen::VectorXd& error) {
+                   points_m.push_back(error.head(reading.point_lines()).norm());
+                   if (s.turns()) turns_rad.push_back(error.tail(reading.turn_lines()).norm());
+                 });
   }
 
   HeldOutError usual(const WhitenedFit& s) && {
-    HeldOutError out{usual_errors(std::move(points_m), s.reading.point_lines(), s.sigma_m), {}};
+    HeldOutError out{usual_errors(std::move(points_m), s.measured->usual_axes(), s.sigma_m), {}};
     if (s.turns()) out.turns = summarise(std::move(turns_rad));
     return out;
   }
@@ -51,11 +53,14 @@ double sum_of_squares(const std::vector<double>& norms) {
 /// a point that misses by as many sigmas.
 double squared_error(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines) {
   double out = 0.0;
-  visit_errors(s, at, lines, [&](const Eigen::VectorXd& white, const Eigen::VectorXd& error) {
-    const double point = error.head(s.reading.point_lines()).norm();
-    out += point * point;
-    if (s.turns()) out += std::pow(s.sigma_m, 2) * white.tail(s.reading.turn_lines()).squaredNorm();
-  });
+  visit_errors(
+      s, at, lines,
+      [&](const Reading& reading, const Eigen::VectorXd& white, const Eigen::VectorXd& error) {
+        const double point = error.head(reading.point_lines()).norm();
+        out += point * point;
+        if (s.turns())
+          out += std::pow(s.sigma_m, 2) * white.tail(reading.turn_lines()).squaredNorm();
+      });
   return out;
 }
 

@@ -56,10 +56,9 @@ ErrorStats HeldOutPredictions::turn_stats() const {
 
 std::set<int> HeldOutPredictions::far_rows(const std::vector<double>& errors_m,
                                            double sigma_m) const {
-  const auto& has = measured_->has_axis;
-  const auto axes = static_cast<int>(std::count(has.begin(), has.end(), true));
   std::set<int> out;
-  for (const std::size_t i : standing_out(errors_m, axes, sigma_m).which) out.insert(rows_[i]);
+  for (const std::size_t i : standing_out(errors_m, measured_->usual_axes(), sigma_m).which)
+    out.insert(rows_[i]);
   return out;
 }
 

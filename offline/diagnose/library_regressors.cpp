@@ -84,9 +84,10 @@ void motion_columns(const Bound& bound, Regressor& out) {
   differentiate(bound, [&](Eigen::Index i, Eigen::Index c, Eigen::Index lane, const auto& motion) {
     Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
     const Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
-    d = s.R_MB[i] * (d + cross<double>(e, s.arm_B[i]));
+    const Matrix3& R_MB = s.X_MB[i].R;
+    d = R_MB * (d + cross<double>(e, s.arm_B[i]));
     auto lines = out.columns.col(c).segment(s.table.begin(i), s.table.count(i));
-    s.reading.project(d, s.R_MB[i] * e, lines);
+    s.reading[i].project(s.target_M(i), d, R_MB * e, lines);
     whiten(s, i, lines);
     for (int j = 0; j < s.joints(); ++j)
       lines += s.joint[j].segment(s.table.begin(i), s.table.count(i)) * motion.dq[j].d(lane);
@@ -97,13 +98,13 @@ void motion_columns(const Bound& bound, Regressor& out) {
 /// column. A rotation that hardly moves the measured point moves others.
 double motion_beside(const WhitenedFit& s, const Regressor& regressor, Eigen::Index c) {
   Eigen::VectorXd moved = motion(s, regressor, Eigen::VectorXd::Unit(regressor.columns.cols(), c));
-  const Eigen::Index points = s.reading.point_lines();
   double sum = 0.0;
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
     auto lines = moved.segment(s.table.begin(i), s.table.count(i));
     unwhiten(s, i, lines);
-    sum += lines.head(points).squaredNorm() +
-           std::pow(kBeside_m, 2) * lines.tail(s.reading.turn_lines()).squaredNorm();
+    const Reading& reading = s.reading[i];
+    sum += lines.head(reading.point_lines()).squaredNorm() +
+           std::pow(kBeside_m, 2) * lines.tail(reading.turn_lines()).squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(std::max<Eigen::Index>(1, s.poses())));
 }

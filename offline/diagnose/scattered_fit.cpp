@@ -75,7 +75,8 @@ void keep_first_of(const std::vector<Stop>& stops, const WhitenedFit& s, Whitene
     out.frames.push_back(s.frames[at]);
     out.loads.push_back(s.loads[at]);
     out.context.push_back(s.context[at]);
-    out.R_MB.push_back(s.R_MB[at]);
+    out.X_MB.push_back(s.X_MB[at]);
+    out.reading.push_back(s.reading[at]);
     out.arm_B.push_back(s.arm_B[at]);
     for (Eigen::Index k = s.table.begin(stop.first); k < s.table.begin(stop.first + 1); ++k)
       out.sigma.push_back(s.sigma[static_cast<std::size_t>(k)] / root);
@@ -103,11 +104,14 @@ void divide(const std::vector<PoseRoot>& root, const LineTable& table, Lines& li
 
 double typical_sigma(const WhitenedFit& s) {
   double squares = 0.0;
-  const Eigen::Index points = s.reading.point_lines();
-  for (Eigen::Index i = 0; i < s.poses(); ++i)
+  Eigen::Index lines = 0;
+  for (Eigen::Index i = 0; i < s.poses(); ++i) {
+    const Eigen::Index points = s.reading[static_cast<std::size_t>(i)].point_lines();
+    lines += points;
     for (Eigen::Index k = 0; k < points; ++k)
       squares += std::pow(s.sigma[s.table.begin(i) + k], 2) * s.root[i].row(k).squaredNorm();
-  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, s.poses() * points)));
+  }
+  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, lines)));
 }
 
 }  // namespace
@@ -129,7 +133,7 @@ Repeatability repeatability_of(const WhitenedFit& s, const JointScatter& scatter
   std::vector<Eigen::Index> of_points;
   std::vector<double> sigma_m;
   for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
-    for (Eigen::Index k = 0; k < s.reading.point_lines(); ++k) {
+    for (Eigen::Index k = 0; k < s.reading[static_cast<std::size_t>(i)].point_lines(); ++k) {
       of_points.push_back(s.table.begin(i) + k);
       sigma_m.push_back(s.sigma[static_cast<std::size_t>(of_points.back())]);
     }
@@ -144,7 +148,6 @@ WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {
   WhitenedFit out;
   out.cell = s.cell;
   out.measured = s.measured;
-  out.reading = s.reading;
   out.chain = s.chain;
   out.sensors = s.sensors;
   out.noise = s.noise;

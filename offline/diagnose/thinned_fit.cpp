@@ -20,7 +20,8 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
     const auto at = static_cast<std::size_t>(i);
     out.row.push_back(whitened.row[at]);
     out.frames.push_back(whitened.frames[at]);
-    out.R_MB.push_back(whitened.R_MB[at]);
+    out.X_MB.push_back(whitened.X_MB[at]);
+    out.reading.push_back(whitened.reading[at]);
     out.loads.push_back(whitened.loads[at]);
     out.context.push_back(whitened.context[at]);
     out.arm_B.push_back(whitened.arm_B[at]);
@@ -28,7 +29,6 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
   }
   for (const auto l : line) out.sigma.push_back(whitened.sigma[static_cast<std::size_t>(l)]);
   out.held = {static_cast<Eigen::Index>(pose.size()), static_cast<Eigen::Index>(pose.size())};
-  out.reading = whitened.reading;
   out.table = whitened.table.picked(pose);
   out.fit_lines = static_cast<Eigen::Index>(line.size());
   out.noise = whitened.noise;

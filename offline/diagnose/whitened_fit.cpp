@@ -66,17 +66,22 @@ double sigma_of_orientations(const Cell& cell, const Measurements& measured,
 /// 1 sigma of every line [m, rad], in the order of the lines.
 std::vector<double> sigma_of_lines(const WhitenedFit& s, const Rows3& sigma_m, double sigma_rad) {
   std::vector<double> out;
-  for (const int row : s.row)
-    s.reading.components([&](int k) { out.push_back(k < 3 ? sigma_m(row, k) : sigma_rad); });
+  for (std::size_t i = 0; i < s.row.size(); ++i)
+    s.reading[i].components(
+        [&](int k) { out.push_back(k < 3 ? sigma_m(s.row[i], k) : sigma_rad); });
   return out;
 }
 
 /// Mean of the sigmas of the measured coordinates of points [m].
 double mean_sigma(const WhitenedFit& s, const Rows3& sigma_m) {
-  const TrackerReading point(*s.measured, false);
   double sum = 0.0;
-  for (const int row : s.row) point.components([&](int k) { sum += sigma_m(row, k); });
-  return sum / static_cast<double>(std::max<std::size_t>(1, s.row.size() * point.lines()));
+  int lines = 0;
+  for (const int row : s.row) {
+    const Reading point(*s.measured, row, false);
+    point.components([&](int k) { sum += sigma_m(row, k); });
+    lines += point.lines();
+  }
+  return sum / static_cast<double>(std::max(1, lines));
 }
 
 void look(const ArmState& state, WhitenedFit& out) {
@@ -89,12 +94,12 @@ void look(const ArmState& state, WhitenedFit& out) {
   out.loads.resize(count);
   out.context.resize(count);
   out.arm_B.resize(count);
-  out.R_MB.resize(count);
+  out.X_MB.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     out.chain.frames(out.q(static_cast<Eigen::Index>(i)), out.frames[i]);
     const int setup = setup_of(*out.measured, out.row[i]);
     const Transformd X_MB = from_pose(state.frame(setup));
-    out.R_MB[i] = X_MB.R;
+    out.X_MB[i] = X_MB;
     out.context[i] = context_of(*out.measured, out.row[i], out.sensors, X_MB);
     weigh(out.chain, out.frames[i], state.arm.mechanics, state.arm.gravity, X_TF,
           out.context[i].known, out.loads[i]);
@@ -109,11 +114,13 @@ void fill_carriers(WhitenedFit& s) {
   s.tool.resize(lines, 3);
   const Vector3 none = Vector3::Zero();
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
-    const Matrix3& R_MB = s.R_MB[static_cast<std::size_t>(i)];
+    const Matrix3& R_MB = s.X_MB[static_cast<std::size_t>(i)].R;
+    const Vector3 target_M = s.target_M(i);
     const auto& f = s.frames[i];
     const auto put = [&](const Vector3& shift, const Vector3& turn, auto&& all_lines) {
       auto lines_of_pose = all_lines.segment(s.table.begin(i), s.table.count(i));
-      s.reading.project(R_MB * shift, R_MB * turn, lines_of_pose);
+      s.reading[static_cast<std::size_t>(i)].project(target_M, R_MB * shift, R_MB * turn,
+                                                     lines_of_pose);
       whiten(s, i, lines_of_pose);
     };
     const Vector3 target = f.tip.p + s.arm_B[i];
@@ -225,8 +232,12 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
   out.sigma_m = mean_sigma(out, sigma_m);
   out.noise = noise_scale(noise_floor(cell, measured, calibration.state), out.sigma_m);
   const double sigma_rad = sigma_of_orientations(cell, measured, out.noise);
-  out.reading = TrackerReading(measured, sigma_rad > 0.0);
-  out.table = LineTable(std::vector<int>(out.row.size(), out.reading.lines()));
+  std::vector<int> counts;
+  for (const int row : out.row) {
+    out.reading.emplace_back(measured, row, sigma_rad > 0.0);
+    counts.push_back(out.reading.back().lines());
+  }
+  out.table = LineTable(counts);
   out.sigma = sigma_of_lines(out, sigma_m, sigma_rad);
   look(calibration.state, out);
   clear_of_model(calibration, sigma_m, sigma_rad, out);

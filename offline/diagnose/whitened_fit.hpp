@@ -8,7 +8,7 @@
 #include "cell/measurements.hpp"
 #include "fit/calibration.hpp"
 #include "observe/line_table.hpp"
-#include "observe/tracker_reading.hpp"
+#include "observe/reading.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 #include "solve/orthonormal.hpp"
 
@@ -43,10 +43,10 @@ struct WhitenedFit {
   /// Errors of the poses that the others contradict [m]: no model was fitted to them, so with folds
   /// they count as held out. What a missing effect changes of them is little beside them.
   std::vector<double> contradicted_m;
-  TrackerReading reading;      // what each pose shows
-  LineTable table;             // of all poses
-  Eigen::Index fit_lines = 0;  // of the fit poses
-  Eigen::Index rank = 0;       // of the model's own columns
+  std::vector<Reading> reading;  // what each pose shows
+  LineTable table;               // of all poses
+  Eigen::Index fit_lines = 0;    // of the fit poses
+  Eigen::Index rank = 0;         // of the model's own columns
   NoiseScale noise;
   double sigma_m = 0.0;  // typical 1 sigma of a coordinate of a point
   /// What joint scatter alone explains of the residual without any effect [nats]: every candidate
@@ -74,10 +74,10 @@ struct WhitenedFit {
   std::vector<ChainFrames> frames;
   std::vector<Loads> loads;
   std::vector<MeasuredContext> context;
-  std::vector<double> sigma;   // (lines,) [m], of rotations [rad]
-  std::vector<PoseRoot> root;  // of each pose: Cholesky factor, behind sigma; empty: the identity
-  std::vector<Matrix3> R_MB;   // base in the measurement frame
-  std::vector<Vector3> arm_B;  // tip to target
+  std::vector<double> sigma;     // (lines,) [m], of rotations [rad]
+  std::vector<PoseRoot> root;    // of each pose: Cholesky factor, behind sigma; empty: the identity
+  std::vector<Transformd> X_MB;  // base in the measurement frame
+  std::vector<Vector3> arm_B;    // tip to target
   std::vector<std::string> sensors;
 
   Eigen::Index poses() const { return static_cast<Eigen::Index>(row.size()); }
@@ -86,9 +86,16 @@ struct WhitenedFit {
 
   /// The lines of the point of a pose, the first ones.
   auto point_lines(Eigen::Index pose) const {
-    return Eigen::seqN(table.begin(pose), Eigen::Index{reading.point_lines()});
+    return Eigen::seqN(table.begin(pose),
+                       Eigen::Index{reading[static_cast<std::size_t>(pose)].point_lines()});
   }
-  bool turns() const { return reading.turn_lines() > 0; }
+  /// Whether orientations are used: all rows have one, or none.
+  bool turns() const { return !reading.empty() && reading.front().turn_lines() > 0; }
+  /// Where the target of a pose is in the frame of its set-up.
+  Vector3 target_M(Eigen::Index pose) const {
+    const auto i = static_cast<std::size_t>(pose);
+    return X_MB[i] * (frames[i].tip.p + arm_B[i]);
+  }
   Eigen::MatrixXd inverse_information() const {
     return half_information * half_information.transpose();
   }

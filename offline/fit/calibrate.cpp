@@ -109,7 +109,7 @@ std::vector<Parameter> led_by(const std::vector<Parameter>& first,
 double excess_of(const FitData& data, const Solution& solution, std::size_t parameters) {
   const Measurements some = pick(*data.measured, data.rows);
   const Rows3 residual = residuals(some, predict_points(solution.state, some));
-  return excess_sigma(residual, picked(data.sigma_m, data.rows), data.measured->has_axis,
+  return excess_sigma(some, residual, picked(data.sigma_m, data.rows),
                       static_cast<int>(parameters + std::lround(solution.series_dof)));
 }
 
@@ -228,6 +228,7 @@ CoarseFit coarse_from(const FitData& data, const ArmState& start,
   ArmState placed = nominal;
   placed.X_MB = start.X_MB;
   placed.X_TG = start.X_TG;
+  placed.length_m = start.length_m;
   placed.more = start.more;
   out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse, Size::kGiven);
   check_enough(data, unknown_before(data, out.subset.kept), candidates);

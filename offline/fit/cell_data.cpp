@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <optional>
 
+#include "cell/artefacts.hpp"
 #include "cell/earlier_arm.hpp"
 #include "cell/lost_points.hpp"
 #include "cell/measurement_reader.hpp"
 #include "cell/reading_digest.hpp"
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"
-#include "cell/touched_points.hpp"
 #include "effects/effect_option.hpp"
 #include "fit/constants.hpp"
 #include "plumb/runtime/chain.hpp"
@@ -50,15 +50,32 @@ bool moves_in_space(const Cell& cell) {
   return false;
 }
 
+/// W-CSV-AXES: an error of one direction looks smaller than that of the point in space.
+void warn_of_single_lines(const Measurements& measured, Table& table) {
+  for (int i = 0; i < measured.size(); ++i)
+    if (measured.axes(i) > 1) return;
+  table.remarks.push_back(
+      {Severity::kWarning, "W-CSV-AXES",
+       "each reading is one number, how far the tool is from a plane or a centre: every error is "
+       "along that direction alone",
+       place_in_header(table, *artefact_column(table), "says one number a row"),
+       "where the directions vary, the error in space is about 1.7 times as large"});
+}
+
 /// W-CSV-AXES: an error of two axes looks smaller than that of the point in space.
 void warn_of_missing_axes(const Cell& cell, MeasurementFiles& measured) {
+  const auto first_positions =
+      std::find_if_not(measured.tables.begin(), measured.tables.end(), reads_artefact);
+  if (measured.tables.empty()) return;
+  if (first_positions == measured.tables.end())
+    return warn_of_single_lines(measured, measured.tables.front());
   std::string missing, given;
   for (int k = 0; k < 3; ++k) {
     std::string& list = measured.has_axis[k] ? given : missing;
     list += (list.empty() ? "" : " and ") + std::string(1, "xyz"[k]);
   }
-  if (missing.empty() || given.empty() || measured.tables.empty() || !moves_in_space(cell)) return;
-  Table& table = measured.tables.front();
+  if (missing.empty() || given.empty() || !moves_in_space(cell)) return;
+  Table& table = *first_positions;
   const std::string first(1, missing.front());
   table.remarks.push_back(
       {Severity::kWarning, "W-CSV-AXES",
@@ -139,7 +156,7 @@ MeasurementFiles read_cell_measurements(Cell& cell) {
   check_files(cell);
   const auto files = measurement_files(cell.measurement);
   MeasurementFiles out = read_measurements(files, cell.nominal, Needs::kJointsAndPosition);
-  list_touched_points(out.tables, cell.measurement);
+  list_artefacts(out.tables, cell.measurement);
   assign_setups(cell, files, out);
   ignore_lost_points(cell, out);
   check_rows(cell, out);

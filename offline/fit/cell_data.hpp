@@ -7,7 +7,7 @@
 namespace plumb::offline {
 
 /// Reads the measurements of a cell, the file of held-out poses last. Lists the fixed points that
-/// they touch as set-ups of the cell (cell/touched_points.hpp). Throws Failure (kInput) if a
+/// they touch as set-ups of the cell (cell/artefacts.hpp). Throws Failure (kInput) if a
 /// file is missing, if an earlier run has seen these readings, or as `check_rows`.
 MeasurementFiles read_cell_measurements(Cell& cell);
 

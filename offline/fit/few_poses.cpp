@@ -26,9 +26,8 @@ std::size_t fewest_fitted(const Split& split) {
 double fitted_coordinates(const Measurements& measured, const Split& split) {
   std::set<int> poses;
   for (const int row : fit_rows(split)) poses.insert(measured.replicate_group[row]);
-  const auto axes = std::count(measured.has_axis.begin(), measured.has_axis.end(), true);
   const double inside = split.folds > 0 ? 1.0 - 1.0 / split.folds : 1.0;
-  return inside * static_cast<double>(axes) * static_cast<double>(poses.size());
+  return inside * measured.mean_axes() * static_cast<double>(poses.size());
 }
 
 double error_growth(double coordinates, double parameters) {

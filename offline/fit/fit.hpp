@@ -40,6 +40,7 @@ struct Fit {
   OrientationFloor turn_floor;     // known only where orientations are fitted
   double unavoidable_ratio = 1.0;  // error of a correct model fitted to so few poses [noise floors]
   std::vector<std::string> still;  // joints that never moved
+  bool size_unknown = false;       // nothing that was read tells the size of the arm
   std::vector<Problem> remarks;
 };
 

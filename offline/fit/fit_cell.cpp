@@ -10,9 +10,9 @@
 #include "arm/arm_state.hpp"
 #include "arm/context_needs.hpp"
 #include "arm/predicted_points.hpp"
+#include "cell/artefacts.hpp"
 #include "cell/replicates.hpp"
 #include "cell/setups.hpp"
-#include "cell/touched_points.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/constants.hpp"
@@ -64,7 +64,7 @@ void check_placed(const Cell& cell, const Measurements& measured, const std::vec
     const int k = setup_of(measured, row);
     const Setup rule = setup_rule(m, k);
     // Where a point is that no fitted row touches, its own rows tell: unseen_points.hpp.
-    const bool frame = rule.is_point || !rule.fit_frame || frames.contains(frame_root(m, k));
+    const bool frame = rule.is_artefact() || !rule.fit_frame || frames.contains(frame_root(m, k));
     if (frame && (!rule.fit_target || targets.contains(target_root(m, k)))) continue;
     throw Failure(
         Exit::kInput,
@@ -176,9 +176,7 @@ void find_held_outliers(const Measurements& measured, const std::vector<int>& he
   const Rows3 error = residuals(measured, out.predicted_M);
   std::vector<double> norms;
   for (const int row : held) norms.push_back(error.row(row).norm());
-  const int axes =
-      static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
-  const StandingOut far = standing_out(norms, axes, out.floor.sigma_m);
+  const StandingOut far = standing_out(norms, measured.usual_axes(), out.floor.sigma_m);
   for (const std::size_t i : far.which)
     out.held_outliers.push_back({.row = held[i],
                                  .error_m = norms[i],
@@ -229,7 +227,7 @@ void remark_on_setups_without_held(const Cell& cell, const Measurements& measure
     judged.insert(measured.setup[static_cast<std::size_t>(row)]);
   std::vector<std::string> names;
   for (int k = 0; k < setup_count(cell.measurement); ++k)
-    if (!judged.contains(k) && !touches_point(cell.measurement, k))
+    if (!judged.contains(k) && !of_artefact(cell.measurement, k))
       names.push_back(setup_name(cell.measurement, k));
   if (names.empty() || judged.empty()) return;
   out.remarks.push_back(
@@ -256,7 +254,7 @@ void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit&
   for (int k = 0; k < setup_count(cell.measurement); ++k) {
     const auto readings = std::count(measured.setup.begin(), measured.setup.end(), k);
     const int numbers = own_numbers(cell.measurement, k);
-    if (touches_point(cell.measurement, k)) continue;
+    if (of_artefact(cell.measurement, k)) continue;
     if (readings == 0 || numbers == 0 || axes * readings >= numbers + kSpareOfSetup) continue;
     out.remarks.push_back(
         {.severity = Severity::kWarning,
@@ -370,6 +368,7 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
   out.still = still_joints(cell, measured, fit);
+  out.size_unknown = lacks_length(cell);
   const double coordinates = fitted_coordinates(measured, out.split);
   const double numbers = out.calibration.decided + out.calibration.series_dof;
   out.unavoidable_ratio =

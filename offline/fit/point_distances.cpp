@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
 #include "fit/constants.hpp"
 #include "numbers/tails.hpp"
 
@@ -15,11 +15,13 @@ namespace {
 
 /// Index of the x of a point among the estimates; those of y and z follow. -1 if it is not fitted.
 Eigen::Index index_of(const MeasurementSettings& settings, const Calibration& c, int setup) {
-  const std::string name = point_prefix(settings, setup) + "x";
+  const std::string name = artefact_prefix(settings, setup) + "x";
   for (std::size_t i = 0; i < c.estimates.size(); ++i)
     if (c.estimates[i].name == name) return static_cast<Eigen::Index>(i);
   return -1;
 }
+
+bool is_point(const Setup& setup) { return setup.reads == ReadingKind::kPoint; }
 
 }  // namespace
 
@@ -60,8 +62,8 @@ std::vector<PointDistance> point_distances(const MeasurementSettings& m, const C
     for (int b = a + 1; b < count; ++b) {
       const Setup &from = m.setups[static_cast<std::size_t>(a)],
                   &to = m.setups[static_cast<std::size_t>(b)];
-      if (from.is_point && to.is_point && !from.position.empty() && from.position == to.position &&
-          !listed(a, b))
+      if (is_point(from) && is_point(to) && !from.position.empty() &&
+          from.position == to.position && !listed(a, b))
         out.push_back(point_distance(m, c, a, b));
     }
   return out;

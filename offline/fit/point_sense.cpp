@@ -8,7 +8,7 @@
 #include <map>
 
 #include "arm/predicted_points.hpp"
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
 #include "fit/constants.hpp"
 #include "fit/point_distances.hpp"
 #include "numbers/tails.hpp"
@@ -63,7 +63,7 @@ struct Cut {
 /// The clearest place to cut. A model that lacks an effect leaves residuals that change slowly
 /// while the arm turns about the point, so that the readings next to the cut must show the change
 /// as well.
-Cut best_cut(const Rows3& left) {
+Cut best_cut(const Rows3& left, int axes) {
   Cut best;
   const Eigen::Index n = left.rows(), beside = kTouchesBeside;
   for (Eigen::Index k = beside; k + beside <= n; ++k) {
@@ -73,7 +73,7 @@ Cut best_cut(const Rows3& left) {
     Cut cut{.first = k, .moved_m = (after - before).norm()};
     const double there = (mean_of(left, k, k + beside) - mean_of(left, k - beside, k)).norm();
     if (there < kMovedAtOnce * cut.moved_m) continue;
-    cut.sigma_m = std::sqrt(squares / (3.0 * static_cast<double>(n - 2)));
+    cut.sigma_m = std::sqrt(squares / (axes * static_cast<double>(n - 2)));
     cut.deviations =
         cut.moved_m /
         (cut.sigma_m * std::sqrt(1.0 / static_cast<double>(k) + 1.0 / static_cast<double>(n - k)));
@@ -86,7 +86,7 @@ void find_moved(const MeasurementSettings& m, const Measurements& fitted, const 
                 const std::map<int, std::vector<int>>& rows, std::vector<Problem>& out) {
   for (const auto& [setup, of_point] : rows) {
     const Measurements some = pick(fitted, of_point);
-    const Cut cut = best_cut(residuals(some, predict_points(c.state, some)));
+    const Cut cut = best_cut(residuals(some, predict_points(c.state, some)), some.usual_axes());
     if (!cut.clear()) continue;
     const std::string& pose = some.pose[static_cast<std::size_t>(cut.first)];
     out.push_back(
@@ -95,7 +95,7 @@ void find_moved(const MeasurementSettings& m, const Measurements& fitted, const 
          .message = fmt::format("from pose {} on, the tool meets '{}' {:.3f} mm away from "
                                 "where it was before",
                                 pose, name_of(m, setup), cut.moved_m * 1e3),
-         .help = "if the socket was moved there, give the later rows another label"});
+         .help = "if it was moved there, give the later rows another label"});
   }
 }
 
@@ -106,9 +106,11 @@ std::vector<Problem> point_remarks(const MeasurementSettings& settings, const Me
   std::vector<Problem> out;
   std::map<int, std::vector<int>> rows;
   for (int i = 0; i < fitted.size(); ++i)
-    if (fitted.touches_point(i)) rows[setup_of(fitted, i)].push_back(i);
+    if (fitted.of_artefact(i)) rows[setup_of(fitted, i)].push_back(i);
   std::vector<int> touched;
-  for (const auto& [setup, of_point] : rows) touched.push_back(setup);
+  for (const auto& [setup, of_one] : rows)
+    if (settings.setups[static_cast<std::size_t>(setup)].reads == ReadingKind::kPoint)
+      touched.push_back(setup);
   find_contradicted(settings, calibration, out);
   find_same(settings, calibration, touched, out);
   find_moved(settings, fitted, calibration, rows, out);

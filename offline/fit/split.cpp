@@ -165,6 +165,7 @@ Measurements grouped(const Measurements& m, NeverSplit together) {
   out.q = m.q;
   out.set = m.set;
   out.setup = m.setup;
+  out.kind = m.kind;
   out.placement = m.placement;
   out.file = m.file;
   out.replicate_group = pose_groups(m);
@@ -173,7 +174,7 @@ Measurements grouped(const Measurements& m, NeverSplit together) {
   std::map<int, int> number;
   for (int i = 0; i < m.size(); ++i) {
     int& group = out.replicate_group[i];
-    if (m.touches_point(i)) group = poses + m.placement[i];
+    if (m.of_artefact(i)) group = poses + m.placement[i];
     group = number.emplace(group, static_cast<int>(number.size())).first->second;
   }
   return out;
@@ -198,7 +199,7 @@ std::vector<bool> in_small_setup(const Measurements& m, const std::vector<bool>&
     if (used[i]) poses[m.setup[static_cast<std::size_t>(i)]].insert(m.replicate_group[i]);
   for (int i = 0; i < m.size(); ++i)
     out[i] =
-        !m.touches_point(i) && poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfSetup;
+        !m.of_artefact(i) && poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfSetup;
   return out;
 }
 

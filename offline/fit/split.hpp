@@ -22,7 +22,7 @@ struct Split {
 };
 
 /// What is never split: repeats of a pose alone, or also the rows of one placement of an artefact
-/// (cell/touched_points.hpp), if there are at least four placements. Held out with all its rows, a
+/// (cell/artefacts.hpp), if there are at least four placements. Held out with all its rows, a
 /// point says how well the arm goes to a place where it was not calibrated.
 enum class NeverSplit { kPoses, kPlacements };
 

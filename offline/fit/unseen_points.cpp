@@ -3,15 +3,19 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "arm/predicted_points.hpp"
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
+#include "noise/weights.hpp"
+#include "solve/artefact_start.hpp"
+#include "solve/solver.hpp"
 
 namespace plumb::offline {
 namespace {
 
-/// Rows of each touched point of which `fitted` has none.
+/// Rows of each artefact of which `fitted` has none.
 std::map<int, std::vector<int>> rows_of_unseen(const MeasurementSettings& settings,
                                                const Measurements& measured,
                                                const std::vector<int>& fitted) {
@@ -22,9 +26,27 @@ std::map<int, std::vector<int>> rows_of_unseen(const MeasurementSettings& settin
   for (int i = 0; i < measured.size(); ++i) {
     const int setup = setup_of(measured, i);
     const bool used = measured.set.empty() || measured.set[i] != SetMark::kIgnore;
-    if (used && touches_point(settings, setup) && !seen.contains(setup)) out[setup].push_back(i);
+    if (used && of_artefact(settings, setup) && !seen.contains(setup)) out[setup].push_back(i);
   }
   return out;
+}
+
+/// Fits where the artefact is to its own rows, with the arm and the target as they are.
+void place_artefact(const MeasurementSettings& settings, const Measurements& measured,
+                    const std::vector<int>& rows, int setup, ArmState& state) {
+  FitData data;
+  data.measured = &measured;
+  data.rows = rows;
+  data.sigma_m = Rows3::Constant(measured.size(), 3, kUnstatedSigma_m);
+  std::vector<Parameter> own = artefact_parameters(settings, setup);
+  std::optional<Solution> best;
+  const bool length = settings.setups[static_cast<std::size_t>(setup)].fit_length;
+  for (const ArmState& start : artefact_starts(pick(measured, rows), state, setup, length)) {
+    Solution one = solve(data, start, own);
+    if (!best || one.cost < best->cost) best = std::move(one);
+  }
+  state.frame(setup) = best->state.frame(setup);
+  state.length(setup) = best->state.length(setup);
 }
 
 }  // namespace
@@ -32,6 +54,10 @@ std::map<int, std::vector<int>> rows_of_unseen(const MeasurementSettings& settin
 void place_unseen_points(const MeasurementSettings& settings, const Measurements& measured,
                          const std::vector<int>& fitted, ArmState& state) {
   for (const auto& [setup, rows] : rows_of_unseen(settings, measured, fitted)) {
+    if (settings.setups[static_cast<std::size_t>(setup)].reads != ReadingKind::kPoint) {
+      place_artefact(settings, measured, rows, setup, state);
+      continue;
+    }
     const Measurements some = pick(measured, rows);
     const Eigen::RowVector3d missed = residuals(some, predict_points(state, some)).colwise().mean();
     for (int k = 0; k < 3; ++k) state.frame(setup).p[static_cast<std::size_t>(k)] += missed(k);
@@ -46,11 +72,14 @@ Rows3 predict_held_out(const MeasurementSettings& settings, const Measurements& 
   const auto unseen = rows_of_unseen(settings, measured, fitted);
   for (std::size_t i = 0; i < held.size(); ++i) {
     const auto at = unseen.find(setup_of(measured, held[i]));
-    if (at == unseen.end() || at->second.size() < 2) continue;
-    const auto n = static_cast<double>(at->second.size());
+    if (at == unseen.end()) continue;
+    const auto lines = static_cast<double>(at->second.size()) * measured.axes(held[i]);
+    const auto numbers =
+        static_cast<double>(artefact_parameters(settings, setup_of(measured, held[i])).size());
+    if (lines <= numbers) continue;
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::RowVector3d point = measured.p_M.row(held[i]);
-    out.row(row) = point + std::sqrt(n / (n - 1.0)) * (out.row(row) - point);
+    out.row(row) = point + std::sqrt(lines / (lines - numbers)) * (out.row(row) - point);
   }
   return out;
 }

@@ -128,10 +128,11 @@ bool good_but_for_some(const Fit& fit, double tolerance_m) {
   return leaves_out(fit) && keeps(usual_held(fit), tolerance_m) && !keeps(fit.held, tolerance_m);
 }
 
-/// "Good", restricted to what the poses show: nothing is known of joints that never moved.
+/// "Good", restricted to what the poses show: nothing is known of joints that never moved, nor of
+/// the size of an arm where no length was read.
 std::string good(const Fit& fit, double tolerance_m) {
-  const std::string but =
-      good_but_for_some(fit, tolerance_m) ? " but for " + who_stands_out(fit) : "";
+  std::string but = good_but_for_some(fit, tolerance_m) ? " but for " + who_stands_out(fit) : "";
+  if (fit.size_unknown) but = " in shape, of unknown size" + but;
   if (fit.still.empty()) return "Good" + but;
   return fmt::format("Good{} only while {} {} where {}", but, fmt::join(fit.still, ", "),
                      fit.still.size() == 1 ? "stays" : "stay",

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cell/column_names.hpp"
+#include "cell/reading_kind.hpp"
 #include "import/content.hpp"
 #include "import/heading.hpp"
 #include "import/map_option.hpp"
@@ -160,14 +161,16 @@ std::string unused_names(const Imported& data) {
                      data.unused.size() > kListed ? ", ..." : "");
 }
 
-/// Whether the rows touch fixed points instead of having measured positions: the labels of points
+/// Whether the rows are about artefacts instead of having measured positions: the labels of points
 /// that a tracker measured are all different.
-bool touches_points(const Imported& data) {
-  const ImportedColumn* point = data.find("point");
-  if (point == nullptr) return false;
-  std::set<std::string_view> labels;
-  for (std::size_t i = 0; i < point->text.size(); ++i) labels.insert(point->text[i]);
-  return labels.size() < point->text.size();
+bool reads_artefacts(const Imported& data) {
+  return std::ranges::any_of(artefact_readings(), [&](const ReadingDescriptor& kind) {
+    const ImportedColumn* label = data.find(kind.label);
+    if (label == nullptr) return false;
+    std::set<std::string_view> labels;
+    for (std::size_t i = 0; i < label->text.size(); ++i) labels.insert(label->text[i]);
+    return labels.size() < label->text.size();
+  });
 }
 
 }  // namespace
@@ -176,7 +179,7 @@ std::optional<Problem> missing_for_calibration(const Imported& data, int joints)
   const int last = last_joint(data);
   const auto lacking = missing_joints(data, std::max({1, last, joints}));
   const bool no_point = data.find("x") == nullptr && data.find("y") == nullptr &&
-                        data.find("z") == nullptr && !touches_points(data);
+                        data.find("z") == nullptr && !reads_artefacts(data);
   if (lacking.empty() && !no_point) return std::nullopt;
   std::vector<std::string> what, wishes;
   if (last == 0)

@@ -152,8 +152,7 @@ PooledScatter pooled_repeats(const Measurements& m, const Rows3& left_M, int axe
 
 /// left_M: the readings, or their residuals from a model.
 NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3& left_M) {
-  int axes = 0;
-  for (bool has : measured.has_axis) axes += has ? 1 : 0;
+  const int axes = measured.usual_axes();
   NoiseFloor out;
   const PooledScatter repeats = pooled_repeats(measured, left_M, axes);
   if (repeats.dof >= kEnoughRepeats) {

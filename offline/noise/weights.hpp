@@ -33,8 +33,8 @@ double reading_sigma(const Cell& cell, const Measurements& used);
 /// The scatter tau of the residuals beyond the stated noise, by sum r^2 / (sigma^2 + tau^2) = dof;
 /// 0 if the noise alone explains the residuals. Adding tau^2 to every sigma^2 keeps readings of a
 /// small sigma from outweighing all others while the model lacks an effect. residual, sigma: shape
-/// (n, 3) [m]; `axis_used` says which columns count.
-double excess_sigma(const Rows3& residual, const Rows3& sigma, const std::array<bool, 3>& axis_used,
+/// (n, 3) [m]; residuals of what a row of `measured` does not read are 0.
+double excess_sigma(const Measurements& measured, const Rows3& residual, const Rows3& sigma,
                     int parameters);
 
 }  // namespace plumb::offline

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "arm/effect_binding.hpp"
+#include "cell/artefacts.hpp"
 #include "cell/setups.hpp"
-#include "cell/touched_points.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
@@ -79,13 +79,14 @@ Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
 
 PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
                    PosePlan& out) {
-  if (touches_point(cell.measurement, 0))
-    throw Failure(Exit::kInput,
-                  {.code = "E-PLAN-POINT",
-                   .message = "poses are planned for measured positions: with the ball in a socket "
-                              "the arm comes to none of them",
-                   .help = "in each socket turn the tool about all axes as far as it goes, at four "
-                           "places or more, high and low, near and far"});
+  if (of_artefact(cell.measurement, 0))
+    throw Failure(
+        Exit::kInput,
+        {.code = "E-PLAN-POINT",
+         .message = "poses are planned for measured positions: readings about points, "
+                    "planes or anchors have their own places",
+         .help = "at each of them turn the tool about all axes as far as it goes, at four "
+                 "places or more, high and low, near and far"});
   if (const auto& setups = cell.measurement.setups; setups.size() > 1)
     out.remarks.push_back(
         {.severity = Severity::kNote,

@@ -32,6 +32,7 @@ void describe(Fields& fields, typename Fields::template Of<ArmState::Placing>& p
   fields("target_of", place.target_of);
   fields("frame", place.X_MB);
   fields("target", place.X_TG);
+  fields.later("length_m", place.length_m);
 }
 
 template <class Fields>
@@ -56,6 +57,7 @@ void describe(Fields& fields, typename Fields::template Of<Calibration>& calibra
   fields.later("gravity", arm.gravity);
   fields("frame", calibration.state.X_MB);
   fields("target", calibration.state.X_TG);
+  fields.later("length_m", calibration.state.length_m);
   fields.later("more_setups", calibration.state.more);
   fields("estimates", calibration.estimates);
   fields("held", calibration.held);
@@ -137,6 +139,7 @@ void describe(Fields& fields, typename Fields::template Of<Run>& run) {
   fields.where(fit.turn_floor.known(), "orientation_floor", fit.turn_floor);
   fields.later("unavoidable_ratio", fit.unavoidable_ratio);
   fields.later("still_joints", fit.still);
+  fields.later("size_unknown", fit.size_unknown);
   fields.where(fit.orientations.kind != MeasuredOrientations::Kind::kNone, "orientations",
                fit.orientations);
   fields.if_any("from", run.from);

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <optional>
 
+#include "cell/artefacts.hpp"
 #include "cell/formula_reader.hpp"
 #include "cell/setups.hpp"
-#include "cell/touched_points.hpp"
 #include "effects/registry.hpp"
-#include "fit/point_distances.hpp"
 #include "fit/verdict.hpp"
+#include "show/artefacts_view.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
 #include "show/likeness_view.hpp"
@@ -90,7 +90,7 @@ Json setups_json(const MeasurementSettings& m, const ArmState& state) {
   Json out = Json::array();
   for (int k = 0; k < state.setups(); ++k) {
     const Setup rule = setup_rule(m, k);
-    if (rule.is_point) continue;
+    if (rule.is_artefact()) continue;
     Json one{{"name", setup_name(m, k)}, {"frame", pose_json(state.frame(k))}};
     one["frame"]["fitted"] = rule.fit_frame;
     const auto& t = state.target(k).p;
@@ -120,7 +120,7 @@ Blocks setups_blocks(const MeasurementSettings& m, const ArmState& state,
   };
   for (int k = 0; k < state.setups(); ++k) {
     const Setup rule = setup_rule(m, k);
-    if (rule.is_point) continue;
+    if (rule.is_artefact()) continue;
     const auto &f = state.frame(k).p, &t = state.target(k).p;
     table.add({setup_name(m, k), frame_how(k), mm(f[0]), mm(f[1]), mm(f[2]),
                how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
@@ -128,59 +128,6 @@ Blocks setups_blocks(const MeasurementSettings& m, const ArmState& state,
   if (table.rows.empty()) return {};
   return {std::move(table),
           under("frame: base in the measurement frame; target: reflector in the tool frame")};
-}
-
-/// Touched points in the base frame and the distances between them.
-void add_points(const Cell& cell, const Calibration& c, Json& out) {
-  const MeasurementSettings& m = cell.measurement;
-  Json points = Json::array(), distances = Json::array();
-  for (int k = 0; k < c.state.setups(); ++k) {
-    if (!touches_point(m, k)) continue;
-    const Vector3 p = touched_point_B(c, k);
-    points.push_back({{"name", m.setups[static_cast<std::size_t>(k)].name},
-                      {"position_mm", {to_mm(p(0)), to_mm(p(1)), to_mm(p(2))}}});
-  }
-  if (points.empty()) return;
-  for (const PointDistance& d : point_distances(m, c)) {
-    Json one{{"from", m.setups[static_cast<std::size_t>(d.from)].name},
-             {"to", m.setups[static_cast<std::size_t>(d.to)].name}};
-    put(one, "distance_mm", to_mm(d.length_m));
-    put(one, "half_interval_mm", to_mm(d.half_m));
-    if (d.stated_m) put(one, "stated_mm", to_mm(*d.stated_m));
-    distances.push_back(std::move(one));
-  }
-  out["points"] = {{"touched", std::move(points)},
-                   {"distances", std::move(distances)},
-                   {"size_known", !lacks_length(cell)}};
-}
-
-/// A row for each point that the tool touched, and the target that all of them share.
-Blocks points_blocks(const Cell& cell, const Calibration& c) {
-  const MeasurementSettings& m = cell.measurement;
-  Table table{.name = "points",
-              .caption = "Where the touched points are",
-              .head = {"point [mm]", "x", "y", "z"}};
-  std::optional<int> first;
-  for (int k = 0; k < c.state.setups(); ++k) {
-    if (!touches_point(m, k)) continue;
-    if (!first) first = k;
-    const Vector3 p = touched_point_B(c, k);
-    table.add({m.setups[static_cast<std::size_t>(k)].name, mm(p(0)), mm(p(1)), mm(p(2))});
-  }
-  if (!first) return {};
-  const auto& t = c.state.target(*first).p;
-  Blocks out{std::move(table),
-             under(fmt::format("in the base frame; the tool touches them with its point ({:.3f}, "
-                               "{:.3f}, {:.3f}) mm",
-                               to_mm(t[0]), to_mm(t[1]), to_mm(t[2])))};
-  for (const PointDistance& distance : point_distances(m, c))
-    out.push_back(under(distance_words(m, distance)));
-  if (lacks_length(cell))
-    out.push_back(
-        under("no length is known: these readings tell the shape of the arm, and its "
-              "size stays as nominal; the known distance of two points would settle it "
-              "(columns to_point and distance_mm)"));
-  return out;
 }
 
 Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
@@ -201,7 +148,7 @@ Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
 /// Frames of set-ups have no nominal place; the table of set-ups says which of them are guessed.
 Blocks held_note(std::vector<std::string> held) {
   std::erase_if(held, [](const std::string& name) {
-    return name.starts_with("frame[") || name.starts_with("point");
+    return name.starts_with("frame[") || name.find('[') != std::string::npos;
   });
   if (held.empty()) return {};
   return {under(fmt::format("kept at nominal, because these poses say too little about them: {}",
@@ -218,9 +165,9 @@ Blocks series_note(const Cell& cell, const ArmState& state) {
 /// Where tracker and reflector stood.
 Blocks measurement_blocks(const Cell& cell, const Calibration& c) {
   const ArmState& state = c.state;
-  if (state.setups() > 1 || touches_point(cell.measurement, 0)) {
+  if (state.setups() > 1 || of_artefact(cell.measurement, 0)) {
     Blocks out = setups_blocks(cell.measurement, state, c.held);
-    append(out, points_blocks(cell, c));
+    append(out, artefacts_blocks(cell, c));
     return out;
   }
   const Setup rule = setup_rule(cell.measurement, 0);
@@ -268,7 +215,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit,
   out["target_mm"] = {to_mm(t[0]), to_mm(t[1]), to_mm(t[2])};
   out["target_fitted"] = first.fit_target;
   if (c.state.setups() > 1) out["setups"] = setups_json(cell.measurement, c.state);
-  add_points(cell, c, out);
+  add_artefacts(cell, c, out);
   out["measurement_std"] = measurement_std_json(c.estimates);
   if (fit.tree)
     out["tree"] = tree_json(*fit.tree);

@@ -3,10 +3,17 @@
 
 namespace plumb::offline {
 
-int FitData::residual_count() const { return reading().lines() * static_cast<int>(rows.size()); }
+int FitData::residual_count() const {
+  int out = 0;
+  for (const int row : rows) out += reading(row).lines();
+  return out;
+}
 
 LineTable FitData::line_table() const {
-  return LineTable(std::vector<int>(rows.size(), reading().lines()));
+  std::vector<int> counts;
+  counts.reserve(rows.size());
+  for (const int row : rows) counts.push_back(reading(row).lines());
+  return LineTable(counts);
 }
 
 }  // namespace plumb::offline

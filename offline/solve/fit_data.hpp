@@ -6,7 +6,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "observe/line_table.hpp"
-#include "observe/tracker_reading.hpp"
+#include "observe/reading.hpp"
 #include "solve/known_arm.hpp"
 #include "solve/touch_density.hpp"
 #include "solve/weak_directions.hpp"
@@ -26,8 +26,8 @@ struct FitData {
   TouchDensity touches = {};   // if rows touch fixed points
   bool series = false;         // the amplitudes of series of waves are fitted as well
 
-  /// What each row shows.
-  TrackerReading reading() const { return {*measured, sigma_rad > 0.0}; }
+  /// What a row of `measured` shows.
+  Reading reading(int row) const { return {*measured, row, sigma_rad > 0.0}; }
   /// Residuals of all rows, priors not counted.
   int residual_count() const;
   /// Where those of each of `rows` stand. Cost: rows.

@@ -24,6 +24,7 @@ void place_as_given(const MeasurementSettings& settings, ArmState& state) {
     if (k > 0) state.more.push_back({frame_root(settings, k), target_root(settings, k), {}, {}});
     if (state.frame_of(k) == k) state.frame(k) = rule.X_MB;
     if (state.target_of(k) == k) state.target(k).p = rule.target_T;
+    state.length(k) = rule.length_m;
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
 #include "solve/constants.hpp"
 #include "solve/scaled_jacobian.hpp"
 #include "solve/thinned_rows.hpp"

@@ -31,6 +31,9 @@ class PoseLines {
                      double* jacobian) const;
 
  private:
+  void read_point(ReadingKind kind, const ArmState& state, int setup,
+                  GeometryDerivative::Point& point) const;
+
   const FitData& data_;
   const std::vector<Parameter>& parameters_;
   Eigen::RowVectorXd slopes_;  // of data.touches

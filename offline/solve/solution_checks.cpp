@@ -45,7 +45,7 @@ void check_enough(const FitData& data, std::size_t kept, const std::vector<Param
         "parameters of {}",
         given, of_effects, effect);
     problem.help = fmt::format("name fewer of its joints, or fit more than {} poses",
-                               all / std::max(1, data.reading().lines()));
+                               all * static_cast<int>(data.rows.size()) / std::max(1, coordinates));
   }
   throw Failure(Exit::kNumbersSayNo, std::move(problem));
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
 #include "solve/constants.hpp"
 
 namespace plumb::offline {

@@ -48,6 +48,13 @@ class SocketArm {
   /// Joint readings within the limits.
   Joints random_joints();
 
+  /// Joints that bring the ball to a point; false where none are found.
+  bool touch(const Eigen::Vector3d& point, Joints& q);
+
+  /// Evenly distributed, and normal.
+  double uniform(double from, double to);
+  double normal(double sigma);
+
   /// Mean distance [m] of predicted and true balls at 200 fresh joints, after the rigid motion that
   /// lays the predicted ones on the true ones: where the base stands is open.
   double error_at_fresh_joints(const std::function<Eigen::Vector3d(const Joints&)>& predicted);
@@ -56,9 +63,6 @@ class SocketArm {
   const std::array<std::array<double, 4>, 6>& rows() const { return rows_; }
 
  private:
-  double uniform(double from, double to);
-  double normal(double sigma);
-  bool touch(const Eigen::Vector3d& point, Joints& q);
   void write_touches();
 
   SocketPlan plan_;

@@ -148,7 +148,7 @@ TEST(EffectSentence, WhatTouchedPointsCannotTellIsNotToBePlanned) {
   d.finding = Finding::kUndecidable;
   const auto next = [&] { return after_diagnosis(cell, d).front(); };
   EXPECT_TRUE(next().starts_with("plan ")) << next();
-  cell.measurement.setups.emplace_back().is_point = true;
+  cell.measurement.setups.emplace_back().reads = ReadingKind::kPoint;
   EXPECT_TRUE(next().starts_with("check ")) << next();
 }
 

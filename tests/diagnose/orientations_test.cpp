@@ -65,7 +65,7 @@ TEST(OrientationLines, AreTheTurnOfTheReflectorPerUnitOfEachJoint) {
           rotation_vector(arm.predict(q, {}).X_BT.R * before.transpose()) / kStep;
       Eigen::VectorXd lines = s.joint[static_cast<std::size_t>(j)].segment(s.table.begin(i), 6);
       unwhiten(s, i, lines);
-      const Vector3 expected = s.R_MB[static_cast<std::size_t>(i)] * turn_B;
+      const Vector3 expected = s.X_MB[static_cast<std::size_t>(i)].R * turn_B;
       EXPECT_LT((lines.tail(3) - expected).norm(), 1e-6) << "joint " << j;
     }
   }

@@ -154,8 +154,10 @@ TEST(ExcessSigma, FindsWhatIsThereBesidesTheStatedNoiseAndNothingIfNothingIs) {
       quiet(i, k) = 0.9 * sigma(i, k) * normal(random);
       loud(i, k) = sigma(i, k) * normal(random) + 1e-4 * normal(random);
     }
-  EXPECT_EQ(excess_sigma(quiet, sigma, {true, true, true}, 30), 0.0);
-  EXPECT_NEAR(excess_sigma(loud, sigma, {true, true, true}, 30), 1e-4, 2e-6);
+  Measurements measured;
+  measured.q.resize(n, 6);
+  EXPECT_EQ(excess_sigma(measured, quiet, sigma, 30), 0.0);
+  EXPECT_NEAR(excess_sigma(measured, loud, sigma, 30), 1e-4, 2e-6);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "arm/arm_change.hpp"
 #include "arm/predicted_points.hpp"
-#include "cell/touched_points.hpp"
+#include "cell/artefacts.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/fit_cell.hpp"

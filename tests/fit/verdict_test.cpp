@@ -184,6 +184,12 @@ TEST(Verdict, JointsThatNeverMovedAreNamed) {
   EXPECT_EQ(beginning(fit), "Good only while J2, J3 stay where they were");
 }
 
+TEST(Verdict, AnArmWhoseSizeNothingTellsIsGoodInItsShapeOnly) {
+  Fit fit = fit_with(stats(16e-6, 30e-6, 40e-6), 16e-6);
+  fit.size_unknown = true;
+  EXPECT_EQ(beginning(fit), "Good in shape, of unknown size");
+}
+
 TEST(Verdict, WhatFewPosesLeaveIsNotCalledMissingPhysics) {
   Fit fit = fit_with(stats(32e-6, 60e-6, 80e-6), 16e-6);
   EXPECT_NE(verdict(fit, kTolerance_m).find("physical"), std::string::npos);

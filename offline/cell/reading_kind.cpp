@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/reading_kind.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::array kAll{
+    ReadingDescriptor{
+        ReadingKind::kPosition, nullptr, nullptr, {true, true, true}, false, 0, "set-up"},
+    ReadingDescriptor{ReadingKind::kPoint, "point", nullptr, {true, true, true}, false, 3, "point"},
+    ReadingDescriptor{
+        ReadingKind::kPlane, "plane", nullptr, {false, false, true}, false, 3, "plane"},
+    ReadingDescriptor{
+        ReadingKind::kHeight, "plane", "height", {false, false, true}, false, 3, "plane"},
+    ReadingDescriptor{
+        ReadingKind::kSphere, "sphere", nullptr, {true, false, false}, true, 3, "sphere"},
+    ReadingDescriptor{
+        ReadingKind::kDistance, "anchor", "distance", {true, false, false}, true, 3, "anchor"},
+};
+
+}  // namespace
+
+std::span<const ReadingDescriptor> artefact_readings() { return std::span(kAll).subspan(1); }
+
+const ReadingDescriptor& descriptor_of(ReadingKind kind) {
+  return kAll[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace plumb::offline
