@@ -115,12 +115,46 @@ Rows3 residuals(const Measurements& measured, const Rows3& predicted) {
   return out;
 }
 
+Rows3 predict_targets(const ArmState& state, const Measurements& at) {
+  Measurements as_positions = at;
+  as_positions.kind.clear();
+  return predict_points(state, as_positions);
+}
+
+namespace {
+
+std::vector<Transformd> frames_of(const ArmState& state) {
+  std::vector<Transformd> out;
+  for (int k = 0; k < state.setups(); ++k) out.push_back(from_pose(state.frame(k)));
+  return out;
+}
+
+}  // namespace
+
+Rows3 places_B(const ArmState& state, const Measurements& at) {
+  const std::vector<Transformd> X_MB = frames_of(state);
+  Rows3 out = at.kind.empty() ? at.p_M : predict_targets(state, at);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    if (at.kind_of(i) == ReadingKind::kPosition || at.kind_of(i) == ReadingKind::kPoint)
+      out.row(i) = at.p_M.row(i);
+    const Transformd& X = X_MB[static_cast<std::size_t>(setup_of(at, i))];
+    out.row(i) = (out.row(i) - X.p.transpose()) * X.R;
+  }
+  return out;
+}
+
 Rows3 to_base(const ArmState& state, const Measurements& at, const Rows3& v_M) {
-  std::vector<Matrix3> R_MB;
-  for (int k = 0; k < state.setups(); ++k) R_MB.push_back(from_pose(state.frame(k)).R);
+  const std::vector<Transformd> X_MB = frames_of(state);
+  const bool radial = std::any_of(at.kind.begin(), at.kind.end(),
+                                  [](ReadingKind kind) { return descriptor_of(kind).radial; });
+  const Rows3 targets_M = radial ? predict_targets(state, at) : Rows3();
   Rows3 out(v_M.rows(), 3);
-  for (Eigen::Index i = 0; i < v_M.rows(); ++i)
-    out.row(i) = v_M.row(i) * R_MB[static_cast<std::size_t>(setup_of(at, i))];
+  for (Eigen::Index i = 0; i < v_M.rows(); ++i) {
+    const Matrix3& R_MB = X_MB[static_cast<std::size_t>(setup_of(at, i))].R;
+    out.row(i) = descriptor_of(at.kind_of(i)).radial
+                     ? (v_M(i, 0) * targets_M.row(i).normalized() * R_MB).eval()
+                     : (v_M.row(i) * R_MB).eval();
+  }
   return out;
 }
 

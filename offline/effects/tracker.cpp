@@ -8,7 +8,7 @@ namespace plumb::offline {
 namespace {
 
 Testability tracker_testable(const DataSense& data) {
-  if (!data.positions) return cannot_show("the tool touched points: no tracker measured anything");
+  if (!data.positions) return cannot_show("no tracker measured anything");
   if (!data.tracker_frame)
     return can_show_weakly(
         "nothing says that the origin of the points is the tracker (# frame: tracker)");

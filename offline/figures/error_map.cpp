@@ -28,12 +28,7 @@ struct Map {
 Map map_of(const RunResults& results) {
   const ArmState& state = results.run.fit.calibration.state;
   const Measurements& measured = results.measured;
-  Rows3 from_base_M = measured.p_M;
-  for (Eigen::Index i = 0; i < from_base_M.rows(); ++i) {
-    const auto& p = state.frame(setup_of(measured, i)).p;
-    from_base_M.row(i) -= Eigen::RowVector3d(p[0], p[1], p[2]);
-  }
-  Map out{to_base(state, measured, from_base_M),
+  Map out{places_B(state, measured),
           to_base(state, measured, results.before_M),
           to_base(state, measured, results.after_M),
           {}};

@@ -13,9 +13,7 @@ namespace {
 /// Predicted targets in the base frame.
 Rows3 targets_B(const Measurements& measured, ArmState state, int setup) {
   state.frame(setup) = format::Pose{};
-  Measurements as_positions = measured;
-  as_positions.kind.clear();
-  return predict_points(state, as_positions);
+  return predict_targets(state, measured);
 }
 
 /// A frame whose z is `normal` and whose origin is `origin`, both in the base.

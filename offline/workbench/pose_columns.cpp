@@ -43,13 +43,7 @@ Json axes_mm(const Rows3& rows) {
 Json norms_mm(const Rows3& rows) { return column(rows.rowwise().norm(), kMm); }
 
 Rows3 points_B(const RunResults& results) {
-  const ArmState& state = results.run.fit.calibration.state;
-  Rows3 from_base_M = results.measured.p_M;
-  for (Eigen::Index i = 0; i < from_base_M.rows(); ++i) {
-    const auto& p = state.frame(setup_of(results.measured, i)).p;
-    from_base_M.row(i) -= Eigen::RowVector3d(p[0], p[1], p[2]);
-  }
-  return to_base(state, results.measured, from_base_M);
+  return places_B(results.run.fit.calibration.state, results.measured);
 }
 
 /// Names with their columns, all of as many rows as there are poses.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -17,13 +18,15 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kSockets = 10;
+constexpr int kSockets = 10, kArtefacts = 5;
 
 SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
   SocketPlan out;
   out.seed = seed;
-  out.placements = way.kind == SocketWay::Kind::kTracker ? 1 : kSockets / 2;
-  out.touches = way.kind == SocketWay::Kind::kTracker ? 2 : way.readings / kSockets;
+  const bool sockets =
+      way.kind == SocketWay::Kind::kSockets || way.kind == SocketWay::Kind::kKnownDistance;
+  out.placements = sockets ? kSockets / 2 : 1;
+  out.touches = sockets ? way.readings / kSockets : 2;
   out.play_m = way.sigma_m;
   out.known_distance = way.kind == SocketWay::Kind::kKnownDistance;
   return out;
@@ -39,6 +42,38 @@ std::string tracker_csv(SocketArm& arm, const SocketWay& way) {
     out += fmt::format("{:.6f},{:.6f},{:.6f}\n", p.x() * 1e3, p.y() * 1e3, p.z() * 1e3);
   }
   return out;
+}
+
+std::string csv_of(SocketArm& arm, const SocketWay& way) {
+  switch (way.kind) {
+    case SocketWay::Kind::kTracker:
+      return tracker_csv(arm, way);
+    case SocketWay::Kind::kArtefacts:
+      return artefact_readings(arm, {.kind = way.artefacts,
+                                     .artefacts = kArtefacts,
+                                     .readings = way.readings / kArtefacts,
+                                     .sigma_m = way.sigma_m});
+    default:
+      return arm.measurements_csv();
+  }
+}
+
+std::string name_of(const SocketWay& way) {
+  switch (way.kind) {
+    case SocketWay::Kind::kTracker:
+      return "tracker";
+    case SocketWay::Kind::kKnownDistance:
+      return "sockets, known distance";
+    case SocketWay::Kind::kArtefacts:
+      return std::array{"planes",
+                        "heights above planes",
+                        "ball bar of unknown length",
+                        "ball bar, known length",
+                        "distances to anchors",
+                        "wires of unknown zero"}[static_cast<std::size_t>(way.artefacts)];
+    default:
+      return "sockets";
+  }
 }
 
 double fresh_error(SocketArm& arm, const ArmState& state) {
@@ -64,8 +99,7 @@ void judge(const SocketWay& way, std::uint64_t seed, SocketMarks& out) {
   SocketArm arm(plan_of(way, seed));
   const Folder folder;
   const auto file = folder.put("cell.toml", arm.cell_toml());
-  const bool tracker = way.kind == SocketWay::Kind::kTracker;
-  folder.put("measurements.csv", tracker ? tracker_csv(arm, way) : arm.measurements_csv());
+  folder.put("measurements.csv", csv_of(arm, way));
   Cell cell = read_cell(file);
   cell.measurement.sigma_m = way.sigma_m;
   const MeasurementFiles measured = read_cell_measurements(cell);
@@ -105,11 +139,8 @@ std::string socket_table(const std::vector<SocketMarks>& all) {
       "| measured by | 1 sigma [µm] | readings | error at fresh joints [mm] | numbers inside their "
       "95 % interval | not calibrated |\n|---|---|---|---|---|---|\n";
   for (const SocketMarks& m : all) {
-    const char* by = m.way.kind == SocketWay::Kind::kTracker         ? "tracker"
-                     : m.way.kind == SocketWay::Kind::kKnownDistance ? "sockets, known distance"
-                                                                     : "sockets";
     out +=
-        fmt::format("| {} | {:.0f} | {} | {:.3f} | {:.1f} % | {} of {} |\n", by,
+        fmt::format("| {} | {:.0f} | {} | {:.3f} | {:.1f} % | {} of {} |\n", name_of(m.way),
                     m.way.sigma_m * 1e6, m.way.readings, m.mean_m() * 1e3, 100.0 * m.inside_share(),
                     m.refused, m.refused + static_cast<int>(m.errors_m.size()));
   }

@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "tests/cases/socket_arm.hpp"
+#include "tests/cases/artefact_readings.hpp"
 
 namespace plumb::offline {
 
 /// How the arms of one line of the table were measured.
 struct SocketWay {
-  enum class Kind { kSockets, kKnownDistance, kTracker } kind = Kind::kSockets;
-  int readings = 100;      // of ten sockets, on five places; or poses that a tracker measured
-  double sigma_m = 30e-6;  // play of the ball, or noise of the tracker, each axis
+  enum class Kind { kSockets, kKnownDistance, kTracker, kArtefacts } kind = Kind::kSockets;
+  int readings = 100;      // of ten sockets, on five places; poses that a tracker measured; or of
+                           // five artefacts of the kind `artefacts`
+  double sigma_m = 30e-6;  // play of the ball, or noise of the tracker, each axis; or of a reading
+  ArtefactPlan::Kind artefacts = ArtefactPlan::Kind::kPlane;
 };
 
 /// What came out for one way, over some arms.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// socket_study ARMS SEED: how well arms are calibrated that touched sockets, beside a tracker.
+/// socket_study ARMS SEED: how well arms are calibrated by sockets, planes, ball bars and
+/// wires, beside a tracker.
 #include <cstdio>
 #include <cstdlib>
 
@@ -17,6 +18,12 @@ int main(int argc, char** argv) {
     for (const double play_m : {10e-6, 30e-6, 100e-6})
       for (const int readings : {20, 50, 100, 200})
         all.push_back(socket_marks({kind, readings, play_m}, arms, seed));
+  using Artefact = ArtefactPlan::Kind;
+  for (const auto kind : {Artefact::kPlane, Artefact::kHeight, Artefact::kSphere, Artefact::kBall,
+                          Artefact::kDistance, Artefact::kWire})
+    for (const double sigma_m : {10e-6, 50e-6})
+      for (const int readings : {50, 100, 200, 400})
+        all.push_back(socket_marks({Kind::kArtefacts, readings, sigma_m, kind}, arms, seed));
   std::puts(socket_table(all).c_str());
   return 0;
 }

@@ -23,5 +23,18 @@ TEST(Sockets, WithMorePlayLeaveMoreError) {
   EXPECT_GT(much.mean_m(), 1.2 * little.mean_m());
 }
 
+TEST(Sockets, PlanesAndWiresHoldTheTrueNumbersInTheirIntervals) {
+  using Artefact = ArtefactPlan::Kind;
+  for (const auto kind : {Artefact::kPlane, Artefact::kWire}) {
+    const SocketMarks marks = socket_marks({Kind::kArtefacts, 200, 10e-6, kind}, 6, 2070);
+    EXPECT_EQ(marks.refused, 0);
+    EXPECT_GE(marks.inside_share(), 0.85);
+    EXPECT_GT(marks.numbers, 100);
+    if (kind == Artefact::kWire) {
+      EXPECT_LT(marks.mean_m(), 0.05e-3);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb::offline

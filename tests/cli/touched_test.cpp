@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sandbox.hpp"
-#include "tests/cases/socket_arm.hpp"
+#include "tests/cases/artefact_readings.hpp"
 
 namespace {
 
@@ -41,7 +41,7 @@ TEST_F(Touched, PointsAreFittedListedAndCompiled) {
 TEST_F(Touched, CheckSaysWhatPointsCannotTell) {
   const Ran check = box_.plumb({"check"});
   EXPECT_EQ(check.exit, 0) << check.err;
-  EXPECT_NE((check.out + check.err).find("touches do not tell units"), std::string::npos);
+  EXPECT_NE((check.out + check.err).find("do not tell units and conventions"), std::string::npos);
   EXPECT_EQ((check.out + check.err).find("W-CHECK-COPY"), std::string::npos);
 }
 
@@ -56,5 +56,44 @@ TEST_F(Touched, WhatNeedsMeasuredPositionsIsRefused) {
   EXPECT_EQ(recheck.exit, 3);
   EXPECT_NE(recheck.err.find("E-RECHECK-POINT"), std::string::npos) << recheck.err;
 }
+
+/// The other kinds of that page: from their file to the model file.
+class OtherReadings : public testing::TestWithParam<plumb::offline::ArtefactPlan::Kind> {};
+
+TEST_P(OtherReadings, AreFittedListedComparedDiagnosedAndCompiled) {
+  using Kind = plumb::offline::ArtefactPlan::Kind;
+  SocketArm arm({.seed = 32});
+  Sandbox box;
+  box.write("cell.toml", arm.cell_toml());
+  box.write("measurements.csv", artefact_readings(arm, {.kind = GetParam()}));
+  const bool length =
+      GetParam() == Kind::kBall || GetParam() == Kind::kDistance || GetParam() == Kind::kWire;
+  const Ran fit = box.plumb({"fit", "--json"});
+  ASSERT_EQ(fit.exit, 0) << fit.err;
+  const auto result = fit.json()["result"];
+  EXPECT_EQ(result["artefacts"]["size_known"], length);
+  ASSERT_EQ(result["artefacts"]["found"].size(), 6u);
+  for (const auto& one : result["artefacts"]["found"]) {
+    if (!one.contains("length_mm")) continue;
+    const double expected = one["kind"] == "sphere" ? 120.0 : 312.7;
+    EXPECT_NEAR(one["length_mm"].get<double>(), expected, 0.5);
+  }
+  EXPECT_NE(fit.err.find("W-CSV-AXES"), std::string::npos) << fit.err;
+  const Ran text = box.plumb({"fit"});
+  EXPECT_EQ(text.out.find("of unknown size") == std::string::npos, length) << text.out;
+  for (const char* verb : {"check", "compare", "diagnose", "compile", "report"}) {
+    const Ran ran = box.plumb({verb});
+    EXPECT_EQ(ran.exit, 0) << verb << "\n" << ran.out << ran.err;
+  }
+  EXPECT_EQ(box.plumb({"plan", "--n", "5"}).exit, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OtherReadings,
+                         testing::Values(plumb::offline::ArtefactPlan::Kind::kPlane,
+                                         plumb::offline::ArtefactPlan::Kind::kHeight,
+                                         plumb::offline::ArtefactPlan::Kind::kSphere,
+                                         plumb::offline::ArtefactPlan::Kind::kBall,
+                                         plumb::offline::ArtefactPlan::Kind::kDistance,
+                                         plumb::offline::ArtefactPlan::Kind::kWire));
 
 }  // namespace

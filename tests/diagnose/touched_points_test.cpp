@@ -7,7 +7,7 @@
 #include "diagnose/diagnosis.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/fit_cell.hpp"
-#include "tests/cases/socket_arm.hpp"
+#include "tests/cases/artefact_readings.hpp"
 #include "tests/cell/support.hpp"
 
 namespace plumb::offline {
@@ -53,6 +53,37 @@ TEST(TouchedPointsDiagnosis, FindsNothingWhereNothingIsHidden) {
   EXPECT_EQ(d.finding, Finding::kComplete) << d.text;
   EXPECT_TRUE(std::any_of(d.not_testable.begin(), d.not_testable.end(),
                           [](const Testable& t) { return t.effect == "tracker"; }));
+}
+
+struct Artefacts {
+  Artefacts(const SocketPlan& arm_plan, const ArtefactPlan& plan) : arm(arm_plan) {
+    const auto file = folder.put("cell.toml", arm.cell_toml());
+    folder.put("measurements.csv", artefact_readings(arm, plan));
+    cell = read_cell(file);
+    cell.measurement.sigma_m = plan.sigma_m;
+    measured = read_cell_measurements(cell);
+  }
+  Folder folder;
+  SocketArm arm;
+  Cell cell;
+  MeasurementFiles measured;
+};
+
+/// One number a row names the effect as well, where there are enough rows.
+TEST(ArtefactDiagnosis, FindsThatJointsYieldAndNothingWhereNothingIsHidden) {
+  using Kind = ArtefactPlan::Kind;
+  for (const Kind kind : {Kind::kPlane, Kind::kBall, Kind::kDistance}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    const ArtefactPlan plan{.kind = kind, .artefacts = 8, .readings = 40, .sigma_m = 10e-6};
+    Artefacts yielding({.seed = 23, .yields_rad_per_Nm = 8e-6}, plan);
+    const Diagnosis d = diagnose(yielding.cell, yielding.measured, {});
+    ASSERT_FALSE(d.candidates.empty());
+    EXPECT_NE(d.finding, Finding::kComplete) << d.text;
+    EXPECT_TRUE(is_load(d.candidates.front().entry.name)) << d.text;
+    Artefacts rigid({.seed = 23}, plan);
+    const Diagnosis none = diagnose(rigid.cell, rigid.measured, {});
+    EXPECT_EQ(none.finding, Finding::kComplete) << none.text;
+  }
 }
 
 }  // namespace
