@@ -14,6 +14,8 @@
 #include "cli/model_file.hpp"
 #include "cli/target_rows.hpp"
 #include "cli/verbs.hpp"
+#include "compile/tool_uncertainty.hpp"
+#include "show/audit_view.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -127,7 +129,14 @@ void put_mistake(const TargetTotals& found, Json& result) {
                                         : "no single mistake explains the refused targets");
 }
 
-std::string summary(const TargetTotals& found) {
+/// Empty where orientations were measured, or the model does not say how sure it is.
+std::string orientation_words(const format::Model& model) {
+  const ToolUncertainty tool = tool_uncertainty(model);
+  if (!tool.turn_unmeasured) return "";
+  return "The uncertain orientation of the tool adds " + show::beside_words(tool) + ".\n";
+}
+
+std::string summary(const TargetTotals& found, const format::Model& model) {
   std::string out = verdict(found);
   if (found.counts.refused_rows() < found.counts.rows())
     out += found.largest_rad > kTurned_rad
@@ -135,7 +144,7 @@ std::string summary(const TargetTotals& found) {
                              show::mm(found.largest_m), show::to_deg(found.largest_rad))
                : fmt::format("; the largest correction is {} mm, orientations are left as they are",
                              show::mm(found.largest_m));
-  return out + ".\n" + status_summary(found.counts);
+  return out + ".\n" + orientation_words(model) + status_summary(found.counts);
 }
 
 void correct(const CorrectArguments& options, const Globals& globals, Outcome& outcome) {
@@ -161,7 +170,7 @@ void correct(const CorrectArguments& options, const Globals& globals, Outcome& o
                     {"largest_rotation_deg", show::to_deg(found.largest_rad)}};
   put_mistake(found, outcome.result);
   judge(found, outcome);
-  if (outcome.exit == Exit::kDone) stream.deliver(summary(found), outcome);
+  if (outcome.exit == Exit::kDone) stream.deliver(summary(found, model), outcome);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arm/geometry_derivative.hpp"
 #include "cell/random.hpp"
+#include "compile/trained_poses.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "tree/active_bound.hpp"
@@ -26,29 +26,10 @@ constexpr double kLargeJump = 0.1, kLargeSigma = 0.3;
 /// So does a model with room for fewer effects than this.
 constexpr int kRoomForEffects = 8;
 
-using Box = std::vector<std::pair<double, double>>;
-
-std::vector<double> somewhere_in(const Box& box, Random& random) {
-  std::vector<double> out;
-  for (const auto& [low, high] : box) out.push_back(low + random.unit() * (high - low));
-  return out;
-}
-
-Box trained_box(const format::Model& model) {
-  Box out;
-  for (std::size_t i = 0; i < model.nominal.joints.size(); ++i) {
-    const auto& row = model.nominal.joints[i];
-    const bool trained = i < model.domain.q_min.size();
-    out.emplace_back(trained ? model.domain.q_min[i] : row.q_min,
-                     trained ? model.domain.q_max[i] : row.q_max);
-  }
-  return out;
-}
-
 void look_at_corrections(const format::Model& model, Audit& out) {
   const ForwardModel true_arm(model);
   const Chain nominal(model.nominal);
-  const Box box = trained_box(model);
+  const JointRanges box = trained_box(model);
   Random random(1);
   for (int i = 0; i < kAuditPoses; ++i) {
     const auto q = somewhere_in(box, random);
@@ -65,7 +46,7 @@ void look_at_corrections(const format::Model& model, Audit& out) {
 }
 
 /// Largest jump across the border of `node`, at random points of the cell that it divides.
-double jump_at(const format::Tree& tree, const TreeView& view, int node, const Box& cell,
+double jump_at(const format::Tree& tree, const TreeView& view, int node, const JointRanges& cell,
                Random& random) {
   const auto& border = tree.nodes[node];
   double worst = 0.0;
@@ -80,7 +61,7 @@ double jump_at(const format::Tree& tree, const TreeView& view, int node, const B
 }
 
 /// Largest jump of an oblique tree, at borders found by bisection between random points of the box.
-double jump_on_the_way(const TreeView& view, const Box& box, Random& random) {
+double jump_on_the_way(const TreeView& view, const JointRanges& box, Random& random) {
   double worst = 0.0;
   for (int i = 0; i < kAuditPoses; ++i) {
     auto from = somewhere_in(box, random), to = somewhere_in(box, random);
@@ -98,10 +79,10 @@ double jump_on_the_way(const TreeView& view, const Box& box, Random& random) {
 double worst_jump(const format::Tree& tree, int inputs, Random& random) {
   const TreeView view(tree, inputs);
   if (view.blended()) return 0.0;
-  const Box box(inputs, {-1.0, 1.0});
+  const JointRanges box(inputs, {-1.0, 1.0});
   if (!tree.directions.empty()) return jump_on_the_way(view, box, random);
   double worst = 0.0;
-  std::vector<Box> cells(tree.nodes.size(), box);
+  std::vector<JointRanges> cells(tree.nodes.size(), box);
   for (std::size_t node = 0; node < tree.nodes.size(); ++node) {
     const auto& n = tree.nodes[node];
     worst = std::max(worst, jump_at(tree, view, static_cast<int>(node), cells[node], random));
@@ -115,52 +96,6 @@ double worst_jump(const format::Tree& tree, int inputs, Random& random) {
     }
   }
   return worst;
-}
-
-std::optional<Parameter> parameter_named(const format::Model& arm, const std::string& name) {
-  if (auto found = robot_parameter(arm.calibrated, name)) return found;
-  for (auto& parameter : effect_parameters(arm))
-    if (parameter.name == name) return std::move(parameter);
-  return std::nullopt;
-}
-
-Eigen::MatrixXd covariance_of(const format::Provenance& p) {
-  const auto n = static_cast<Eigen::Index>(p.parameter_names.size());
-  Eigen::MatrixXd out(n, n);
-  std::size_t next = 0;
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index k = 0; k <= i; ++k)
-      out(i, k) = out(k, i) = static_cast<double>(p.covariance[next++]);
-  return out;
-}
-
-void look_at_uncertainty(const format::Model& model, Audit& out) {
-  if (model.provenance.covariance.empty()) return;
-  ArmState state;
-  state.arm.calibrated = model.calibrated;
-  state.arm.effects = model.effects;
-  state.arm.mechanics = model.mechanics;
-  state.arm.gravity = model.gravity;
-  std::vector<Parameter> parameters;
-  for (const auto& name : model.provenance.parameter_names) {
-    const auto parameter = parameter_named(state.arm, name);
-    if (!parameter) return;
-    parameters.push_back(*parameter);
-  }
-  const auto count = static_cast<Eigen::Index>(parameters.size());
-  const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
-  const Eigen::MatrixXd covariance = covariance_of(model.provenance);
-  const Box box = trained_box(model);
-  Random random(1);
-  GeometryDerivative::Point point;
-  for (int i = 0; i < kAuditPoses; ++i) {
-    const auto q = somewhere_in(box, random);
-    geometry.evaluate(q, {}, point);
-    const auto J = point.columns.topRows<3>();
-    const double sigma = std::sqrt(std::max(0.0, (J * covariance * J.transpose()).trace()));
-    out.sigma_tool_mean_m += sigma / kAuditPoses;
-    out.sigma_tool_max_m = std::max(out.sigma_tool_max_m, sigma);
-  }
 }
 
 /// Numbers, counted from 1, of the joints whose trained range is a single point.
@@ -189,14 +124,14 @@ void judge(const format::Model& model, Audit& out) {
                                 "such a step over time, but the arm leaves its path meanwhile",
                                 out.worst_jump_m * 1e3),
          .help = "blend the leaves: [effects.local_tree] form = \"blended\""});
-  if (out.sigma_tool_max_m > kLargeSigma * model.guard.max_correction_m)
+  if (out.tool.max_m > kLargeSigma * model.guard.max_correction_m)
     out.remarks.push_back(
         {.severity = Severity::kWarning,
          .code = "W-AUDIT-SIGMA",
          .message =
              fmt::format("the poses leave the tool uncertain by {:.3f} mm (1 sigma) somewhere "
                          "in the trained range",
-                         out.sigma_tool_max_m * 1e3),
+                         out.tool.max_m * 1e3),
          .help = "measure more poses: plumb plan --n 30"});
   if (const auto still = still_joints(model); !still.empty())
     out.remarks.push_back(
@@ -233,7 +168,7 @@ Audit audit(const format::Model& model) {
     out.active_leaves = std::max(out.active_leaves, most_active_leaves(tree, inputs));
     out.worst_jump_m = std::max(out.worst_jump_m, worst_jump(tree, inputs, random));
   }
-  look_at_uncertainty(model, out);
+  out.tool = tool_uncertainty(model);
   out.bytes = format::write_model(model).size();
   out.refusals = refusal_share(model);
   judge(model, out);

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "compile/refusal_share.hpp"
+#include "compile/tool_uncertainty.hpp"
+#include "compile/trained_poses.hpp"
 #include "plumb/format/model.hpp"
 #include "program/problem.hpp"
 
@@ -14,10 +16,9 @@ namespace plumb::offline {
 struct Audit {
   double worst_correction_m = 0.0;  // largest distance of the calibrated tool from the nominal one
   double worst_rotation_rad = 0.0;
-  std::vector<double> worst_q;     // the joint positions there [rad] or [m]
-  double worst_jump_m = 0.0;       // largest step of a tree at a leaf border, one axis; blended: 0
-  double sigma_tool_mean_m = 0.0;  // predicted 1 sigma of the tool point (3-D), from the covariance
-  double sigma_tool_max_m = 0.0;
+  std::vector<double> worst_q;  // the joint positions there [rad] or [m]
+  double worst_jump_m = 0.0;    // largest step of a tree at a leaf border, one axis; blended: 0
+  ToolUncertainty tool;
   int leaves = 0;
   int active_leaves = 0;  // largest number of leaves with a weight at one point, one axis
   std::size_t bytes = 0;
@@ -25,9 +26,8 @@ struct Audit {
   std::vector<Problem> remarks;  // a correction above the guard's limit, and such
 };
 
-inline constexpr int kAuditPoses = 2000;
-
-/// Looks at kAuditPoses random poses of the trained domain, the same ones every time.
+/// Looks at kAuditPoses (trained_poses.hpp) random poses of the trained domain, the same ones every
+/// time.
 Audit audit(const format::Model& model);
 
 }  // namespace plumb::offline

@@ -6,6 +6,7 @@
 #include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
+#include "show/audit_view.hpp"
 #include "show/counted.hpp"
 #include "show/model_view.hpp"
 #include "show/units.hpp"
@@ -68,10 +69,12 @@ void put_audit(const ReportData& data, Html& html) {
       {"farthest from the seed",
        fmt::format("{:.1f} deg", show::to_deg(model.guard.max_seed_distance))},
       {"largest turn", fmt::format("{:.4f} deg", show::to_deg(audit.worst_rotation_rad))}};
-  if (!model.provenance.covariance.empty())
-    table.rows.push_back({"1 sigma of a predicted point (3-D)",
-                          fmt::format("mean {} mm, max {} mm", mm(audit.sigma_tool_mean_m),
-                                      mm(audit.sigma_tool_max_m))});
+  if (!model.provenance.covariance.empty()) {
+    table.rows.push_back(
+        {"1 sigma of a predicted point (3-D)",
+         fmt::format("mean {} mm, max {} mm", mm(audit.tool.mean_m), mm(audit.tool.max_m))});
+    table.rows.push_back({"what the tool's orientation adds", show::beside_words(audit.tool)});
+  }
   if (audit.leaves > 0)
     table.rows.push_back({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
   html.table(table);

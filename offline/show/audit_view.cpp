@@ -59,9 +59,11 @@ Json audit_json(const Audit& audit, const format::Model& model) {
   if (model.provenance.covariance.empty()) {
     put_null(out, "sigma_tool_mean_mm", kNoCovariance);
     put_null(out, "sigma_tool_max_mm", kNoCovariance);
+    put_null(out, "sigma_beside_mm", kNoCovariance);
   } else {
-    put(out, "sigma_tool_mean_mm", to_mm(audit.sigma_tool_mean_m));
-    put(out, "sigma_tool_max_mm", to_mm(audit.sigma_tool_max_m));
+    put(out, "sigma_tool_mean_mm", to_mm(audit.tool.mean_m));
+    put(out, "sigma_tool_max_mm", to_mm(audit.tool.max_m));
+    put(out, "sigma_beside_mm", to_mm(audit.tool.beside_m));
   }
   out["leaves"] = audit.leaves;
   out["active_leaves"] = audit.active_leaves;
@@ -75,6 +77,12 @@ Json audit_json(const Audit& audit, const format::Model& model) {
   return out;
 }
 
+std::string beside_words(const ToolUncertainty& tool) {
+  return fmt::format(
+      "{} mm at a point {:.0f} mm away{}", mm(tool.beside_m), to_mm(kBeside_m),
+      tool.turn_unmeasured ? ", because positions do not show how the last link is turned" : "");
+}
+
 std::string audit_text(const Audit& audit, const format::Model& model) {
   Table table{.head = {fmt::format("audit of {} poses in the domain", kAuditPoses), ""}};
   table.add({"largest correction at the tool",
@@ -84,10 +92,11 @@ std::string audit_text(const Audit& audit, const format::Model& model) {
                  : mm(audit.worst_correction_m) + " mm"});
   if (!audit.worst_q.empty()) table.add({"  at joints", worst_q_text(audit, model)});
   table.add({"limit of the guard", mm(model.guard.max_correction_m) + " mm"});
-  if (!model.provenance.covariance.empty())
+  if (!model.provenance.covariance.empty()) {
     table.add({"3-D sigma of the fit at the tool",
-               fmt::format("mean {} mm, max {} mm", mm(audit.sigma_tool_mean_m),
-                           mm(audit.sigma_tool_max_m))});
+               fmt::format("mean {} mm, max {} mm", mm(audit.tool.mean_m), mm(audit.tool.max_m))});
+    table.add({"  what its orientation adds", beside_words(audit.tool)});
+  }
   table.add({"leaves", fmt::format("{}", audit.leaves)});
   if (audit.leaves > 0) {
     table.add({"  that contribute to one value", fmt::format("at most {}", audit.active_leaves)});

@@ -53,7 +53,7 @@ double SocketArm::normal(double sigma) {
   return sigma * sum;
 }
 
-Vector3d SocketArm::ball(const Joints& q) const {
+Vector3d SocketArm::ball(const Joints& q, const Vector3d& beside_T) const {
   Joints at = q;
   // Two rounds: the joints yield to the weight of what is behind them, which hangs where they are.
   for (int round = 0; round < 2; ++round) {
@@ -70,7 +70,7 @@ Vector3d SocketArm::ball(const Joints& q) const {
       if (i == 1) upper = 0.5 * (origin[1] + p);
       if (i == 3) fore = 0.5 * (origin[2] + p);
     }
-    const Vector3d tip = p + R * ball_T_;
+    const Vector3d tip = p + R * (ball_T_ + beside_T);
     if (round == 1 || plan_.yields_rad_per_Nm == 0.0) return tip;
     const auto torque = [&](std::size_t joint, const Vector3d& at_m, double kg) {
       return axis[joint].dot((at_m - origin[joint]).cross(Vector3d(0.0, 0.0, -9.81 * kg)));

@@ -34,8 +34,9 @@ class SocketArm {
   std::string cell_toml() const;
   std::string measurements_csv() const { return csv_; }
 
-  /// The ball in the base frame [m].
-  Eigen::Vector3d ball(const Joints& q) const;
+  /// The ball in the base frame [m], or a point of the tool `beside_T` away from it.
+  Eigen::Vector3d ball(const Joints& q,
+                       const Eigen::Vector3d& beside_T = Eigen::Vector3d::Zero()) const;
 
   /// A normal vector with this standard deviation of each axis [m].
   Eigen::Vector3d noise(double sigma_m) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "diagnose/diagnosis.hpp"
 #include "fit/cell_data.hpp"
@@ -13,12 +14,14 @@
 namespace plumb::offline {
 namespace {
 
-struct Sockets {
-  explicit Sockets(const SocketPlan& plan) : arm(plan) {
+struct Touching {
+  /// The sockets of the plan, or, if `read` says so, other artefacts.
+  explicit Touching(const SocketPlan& plan, const std::optional<ArtefactPlan>& read = {})
+      : arm(plan) {
     const auto file = folder.put("cell.toml", arm.cell_toml());
-    folder.put("measurements.csv", arm.measurements_csv());
+    folder.put("measurements.csv", read ? artefact_readings(arm, *read) : arm.measurements_csv());
     cell = read_cell(file);
-    cell.measurement.sigma_m = plan.play_m;
+    cell.measurement.sigma_m = read ? read->sigma_m : plan.play_m;
     measured = read_cell_measurements(cell);
   }
   Folder folder;
@@ -32,11 +35,11 @@ bool is_load(const std::string& effect) {
 }
 
 TEST(TouchedPointsDiagnosis, FindsThatJointsYieldAndSaysTheErrorThatTheFitSays) {
-  Sockets s({.seed = 21,
-             .touches = 25,
-             .play_m = 10e-6,
-             .yields_rad_per_Nm = 8e-6,
-             .known_distance = true});
+  Touching s({.seed = 21,
+              .touches = 25,
+              .play_m = 10e-6,
+              .yields_rad_per_Nm = 8e-6,
+              .known_distance = true});
   const Diagnosis d = diagnose(s.cell, s.measured, {});
   ASSERT_FALSE(d.candidates.empty());
   EXPECT_TRUE(is_load(d.candidates.front().entry.name)) << d.text;
@@ -48,26 +51,12 @@ TEST(TouchedPointsDiagnosis, FindsThatJointsYieldAndSaysTheErrorThatTheFitSays) 
 }
 
 TEST(TouchedPointsDiagnosis, FindsNothingWhereNothingIsHidden) {
-  Sockets s({.seed = 22, .touches = 25, .known_distance = true});
+  Touching s({.seed = 22, .touches = 25, .known_distance = true});
   const Diagnosis d = diagnose(s.cell, s.measured, {});
   EXPECT_EQ(d.finding, Finding::kComplete) << d.text;
   EXPECT_TRUE(std::any_of(d.not_testable.begin(), d.not_testable.end(),
                           [](const Testable& t) { return t.effect == "tracker"; }));
 }
-
-struct Artefacts {
-  Artefacts(const SocketPlan& arm_plan, const ArtefactPlan& plan) : arm(arm_plan) {
-    const auto file = folder.put("cell.toml", arm.cell_toml());
-    folder.put("measurements.csv", artefact_readings(arm, plan));
-    cell = read_cell(file);
-    cell.measurement.sigma_m = plan.sigma_m;
-    measured = read_cell_measurements(cell);
-  }
-  Folder folder;
-  SocketArm arm;
-  Cell cell;
-  MeasurementFiles measured;
-};
 
 /// One number a row names the effect as well, where there are enough rows.
 TEST(ArtefactDiagnosis, FindsThatJointsYieldAndNothingWhereNothingIsHidden) {
@@ -75,12 +64,12 @@ TEST(ArtefactDiagnosis, FindsThatJointsYieldAndNothingWhereNothingIsHidden) {
   for (const Kind kind : {Kind::kPlane, Kind::kBall, Kind::kDistance}) {
     SCOPED_TRACE(static_cast<int>(kind));
     const ArtefactPlan plan{.kind = kind, .artefacts = 8, .readings = 40, .sigma_m = 10e-6};
-    Artefacts yielding({.seed = 23, .yields_rad_per_Nm = 8e-6}, plan);
+    Touching yielding({.seed = 23, .yields_rad_per_Nm = 8e-6}, plan);
     const Diagnosis d = diagnose(yielding.cell, yielding.measured, {});
     ASSERT_FALSE(d.candidates.empty());
     EXPECT_NE(d.finding, Finding::kComplete) << d.text;
     EXPECT_TRUE(is_load(d.candidates.front().entry.name)) << d.text;
-    Artefacts rigid({.seed = 23}, plan);
+    Touching rigid({.seed = 23}, plan);
     const Diagnosis none = diagnose(rigid.cell, rigid.measured, {});
     EXPECT_EQ(none.finding, Finding::kComplete) << none.text;
   }
