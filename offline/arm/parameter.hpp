@@ -31,9 +31,9 @@ struct Parameter {
   int joint = 0;      // row of the chain; of an effect: index of the effect in the model
   int component = 0;  // twist and frame: dx dy dz ex ey ez; point and target: x y z; plane: z rx
                       // ry; effect: parameter
-  std::string name;  // "J2.d", "J3.post.ex", "frame.x", "point[A].x", "target.z", "reversal.J2.h"
-  int setup = 0;     // of frame and target: their set-up, which is in the name if there are
-                     // several: "frame[day 2].x"
+  std::string name;   // "J2.d", "J3.post.ex", "frame.x", "point[A].x", "target.z", "reversal.J2.h"
+  int setup = 0;      // of frame and target: their set-up, which is in the name if there are
+                      // several: "frame[day 2].x"
 
   bool is_length() const;
   bool of_robot() const;  // of the model rather than of frame and target

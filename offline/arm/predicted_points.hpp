@@ -31,8 +31,8 @@ Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured)
 /// measured - predicted [m]; missing axes are 0.
 Rows3 residuals(const Measurements& measured, const Rows3& predicted);
 
-/// Where the target was in each row, in the base frame [m], shape (n, 3): where it was measured, and
-/// in rows about planes and distances, which do not say it, where `state` has it.
+/// Where the target was in each row, in the base frame [m], shape (n, 3): where it was measured,
+/// and in rows about planes and distances, which do not say it, where `state` has it.
 Rows3 places_B(const ArmState& state, const Measurements& at);
 
 /// Rotates residuals from the measurement frame to the base frame; row i is of the set-up of row i
