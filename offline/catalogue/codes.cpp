@@ -611,6 +611,12 @@ constexpr Explanation kCodes[] = {
      "A distance between two touched points that the columns to_point and distance_mm state lies "
      "more than three of its standard deviations from what the fit found, which took it into "
      "account: it is wrong, in another unit, or a point moved half-way."},
+    {"W-FIT-UNIT",
+     "Distances from a fixed anchor tell the size of the arm. These fit the nominal one only if "
+     "all "
+     "of them are larger or smaller by a factor that is that of another unit. The fit takes them "
+     "as "
+     "they are written."},
     {"W-FIT-POINT-MOVED",
      "From some row on the tool meets a touched point or a plane elsewhere: it was bumped, or it "
      "is "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/cell_data.hpp"
+#include "fit/distance_unit.hpp"
 
 #include <fmt/format.h>
 
@@ -161,6 +162,7 @@ MeasurementFiles read_cell_measurements(Cell& cell) {
   ignore_lost_points(cell, out);
   check_rows(cell, out);
   warn_of_missing_axes(cell, out);
+  warn_of_distance_unit(cell, out);
   check_earlier(cell, out);
   return out;
 }

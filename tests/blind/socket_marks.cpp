@@ -20,18 +20,6 @@ namespace {
 
 constexpr int kSockets = 10, kArtefacts = 5;
 
-SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
-  SocketPlan out;
-  out.seed = seed;
-  const bool sockets =
-      way.kind == SocketWay::Kind::kSockets || way.kind == SocketWay::Kind::kKnownDistance;
-  out.placements = sockets ? kSockets / 2 : 1;
-  out.touches = sockets ? way.readings / kSockets : 2;
-  out.play_m = way.sigma_m;
-  out.known_distance = way.kind == SocketWay::Kind::kKnownDistance;
-  return out;
-}
-
 /// Where a tracker sees the ball at random joints.
 std::string tracker_csv(SocketArm& arm, const SocketWay& way) {
   std::string out = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n";
@@ -41,6 +29,20 @@ std::string tracker_csv(SocketArm& arm, const SocketWay& way) {
     const Eigen::Vector3d p = arm.ball(q) + arm.noise(way.sigma_m);
     out += fmt::format("{:.6f},{:.6f},{:.6f}\n", p.x() * 1e3, p.y() * 1e3, p.z() * 1e3);
   }
+  return out;
+}
+
+}  // namespace
+
+SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
+  SocketPlan out;
+  out.seed = seed;
+  const bool sockets =
+      way.kind == SocketWay::Kind::kSockets || way.kind == SocketWay::Kind::kKnownDistance;
+  out.placements = sockets ? kSockets / 2 : 1;
+  out.touches = sockets ? way.readings / kSockets : 2;
+  out.play_m = way.sigma_m;
+  out.known_distance = way.kind == SocketWay::Kind::kKnownDistance;
   return out;
 }
 
@@ -75,6 +77,8 @@ std::string name_of(const SocketWay& way) {
       return "sockets";
   }
 }
+
+namespace {
 
 double fresh_error(SocketArm& arm, const ArmState& state) {
   return arm.error_at_fresh_joints([&](const SocketArm::Joints& q) {

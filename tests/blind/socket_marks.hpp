@@ -29,6 +29,11 @@ struct SocketMarks {
   double inside_share() const { return numbers > 0 ? static_cast<double>(inside) / numbers : 0.0; }
 };
 
+/// What the arm of one way touches, the text of its measurements, and what the way is called.
+SocketPlan plan_of(const SocketWay& way, std::uint64_t seed);
+std::string csv_of(SocketArm& arm, const SocketWay& way);
+std::string name_of(const SocketWay& way);
+
 /// Calibrates `arms` arms, seeds from `seed` on.
 SocketMarks socket_marks(const SocketWay& way, int arms, std::uint64_t seed);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "tests/blind/socket_findings.hpp"
 #include "tests/blind/socket_marks.hpp"
 
 namespace plumb::offline {
@@ -34,6 +35,14 @@ TEST(Sockets, PlanesAndWiresHoldTheTrueNumbersInTheirIntervals) {
       EXPECT_LT(marks.mean_m(), 0.05e-3);
     }
   }
+}
+
+TEST(SocketFindings, ALoadIsTheFirstCauseWhereItShowsAndNothingIsMadeUp) {
+  const SocketFindings found =
+      socket_findings({Kind::kArtefacts, 400, 10e-6, ArtefactPlan::Kind::kDistance}, 3, 2090);
+  EXPECT_EQ(found.first, 3);
+  EXPECT_EQ(found.wrong, 0);
+  EXPECT_EQ(found.made_up, 0);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "cell/artefacts.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/distance_unit.hpp"
 #include "fit/fit_cell.hpp"
 #include "noise/weights.hpp"
 #include "solve/artefact_start.hpp"
@@ -133,6 +134,24 @@ TEST(Artefacts, APlaneThatMovedIsSaid) {
   };
   EXPECT_FALSE(says(fit_cell(still.cell, still.measured, {})));
   EXPECT_TRUE(says(fit_cell(moved.cell, moved.measured, {})));
+}
+
+TEST(DistanceUnit, IsDoubtedWhereOnlyAnotherOneMeetsTheArm) {
+  for (const Kind kind : {Kind::kDistance, Kind::kWire}) {
+    Read read({.kind = kind}, 8);
+    const auto remarks = [&](double times) {
+      MeasurementFiles some = read.measured;
+      some.p_M *= times;
+      some.tables.front().remarks.clear();
+      warn_of_distance_unit(read.cell, some);
+      return some.tables.front().remarks;
+    };
+    EXPECT_TRUE(remarks(1.0).empty());
+    EXPECT_TRUE(remarks(1.05).empty());
+    ASSERT_EQ(remarks(1.0 / 25.4).size(), 1u);
+    EXPECT_NE(remarks(1.0 / 25.4)[0].message.find("inches in a column of mm"), std::string::npos);
+    EXPECT_NE(remarks(1e3)[0].message.find("mm in a column of metres"), std::string::npos);
+  }
 }
 
 TEST(ArtefactStart, OfAWireIsItsAnchorAndItsZeroWhereTheTargetIsKnown) {
