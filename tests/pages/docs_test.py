@@ -106,6 +106,15 @@ class Pages(unittest.TestCase):
                 self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
 
 
+class HowFew(unittest.TestCase):
+    def test_the_figure_is_that_of_the_tables(self):
+        drawn = subprocess.run([SOURCE / "scripts/how-few-figure", "--print"], check=True, capture_output=True,
+                               encoding="utf-8").stdout
+        self.assertEqual(drawn, (SOURCE / "docs/screenshots/how-few.svg").read_text(encoding="utf-8"),
+                         "draw it again: scripts/how-few-figure")
+        self.assertEqual(drawn.count("<circle"), 28)
+
+
 class AtNight(unittest.TestCase):
     """docs/operate.md has an answer to every alarm, every fault and every input that may be missing."""
     PAGE = (SOURCE / "docs/operate.md").read_text()
