@@ -108,10 +108,10 @@ class Pages(unittest.TestCase):
 
 class HowFew(unittest.TestCase):
     def test_the_figure_is_that_of_the_tables(self):
-        drawn = subprocess.run([SOURCE / "scripts/how-few-figure", "--print"], check=True, capture_output=True,
+        drawn = subprocess.run([SOURCE / "tests/pages/how_few_figure.py", "--print"], check=True, capture_output=True,
                                encoding="utf-8").stdout
         self.assertEqual(drawn, (SOURCE / "docs/screenshots/how-few.svg").read_text(encoding="utf-8"),
-                         "draw it again: scripts/how-few-figure")
+                         "draw it again: tests/pages/how_few_figure.py")
         self.assertEqual(drawn.count("<circle"), 28)
 
 

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws docs/screenshots/how-few.svg from the tables of docs/without-a-tracker.md.
 
-    scripts/how-few-figure [--print]      --print: to standard output instead of the file
+    tests/pages/how_few_figure.py [--print]      --print: to standard output instead of the file
 """
 import math
 import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "without-a-tracker.md"
 FIGURE = ROOT / "docs" / "screenshots" / "how-few.svg"
 
