@@ -2,6 +2,7 @@
 #include "solve/solver.hpp"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,7 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // a solution that fails is told by us
   EndAtRest at_rest(data.residual_count());
   options.callbacks.push_back(&at_rest);
   ceres::Solver::Summary summary;

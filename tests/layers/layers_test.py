@@ -14,7 +14,7 @@ ROOTS = ("model_format/include", "runtime/include", "drivers/include", "drivers"
 OWN_PARTS = ("include", "src")  # of a room, no rooms of their own
 GENERATED = {"model_generated.h": "model_format"}
 STANDARD_C = {"stdbool.h", "stddef.h", "stdint.h"}
-LIBRARIES = {"CLI": "CLI11", "Eigen": "Eigen", "boost": "Boost", "ceres": "Ceres", "console_bridge": "urdfdom", "fmt": "fmt",
+LIBRARIES = {"CLI": "CLI11", "Eigen": "Eigen", "boost": "Boost", "ceres": "Ceres", "console_bridge": "urdfdom", "fmt": "fmt", "glog": "Ceres",
              "modbus": "libmodbus", "nlohmann": "JSON", "openssl": "OpenSSL", "sodium.h": "libsodium", "toml++": "toml++",
              "urdf_model": "urdfdom", "urdf_parser": "urdfdom"}
 
