@@ -32,7 +32,7 @@ def tables(page):
     out, head = {}, []
     for line in page.splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        if line.startswith("| measured by"):
+        if line.startswith("| measured by | 1 sigma"):
             head = [int(re.sub(r"\D", "", cell)) for cell in cells[2:]]
         elif line.startswith("|") and len(cells) == len(head) + 2 and cells[1].endswith("µm"):
             values = [float(cell.split(",")[0]) for cell in cells[2:]]
