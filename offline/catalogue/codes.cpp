@@ -617,6 +617,10 @@ constexpr Explanation kCodes[] = {
      "of them are larger or smaller by a factor that is that of another unit. The fit takes them "
      "as "
      "they are written."},
+    {"W-FIT-PLACES",
+     "Whole placements of sockets, planes, spheres or anchors are held out where there are four or "
+     "more. Here there are fewer, so that single readings are held out: their neighbours at the "
+     "same place were fitted, and the arm may be far off elsewhere."},
     {"W-FIT-POINT-MOVED",
      "From some row on the tool meets a touched point or a plane elsewhere: it was bumped, or it "
      "is "

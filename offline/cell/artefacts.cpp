@@ -22,6 +22,13 @@ constexpr const char* kPointCode = "E-CSV-POINT";
 /// Two statements of one length that differ by more than this contradict each other [m].
 constexpr double kSameLength_m = 1e-6;
 
+/// A reading beyond this is a mistake.
+constexpr double kFarthest_m = 100.0;
+
+std::string with_article(const std::string& noun) {
+  return (noun.front() == 'a' ? "an " : "a ") + noun;
+}
+
 bool all_different(const Column& labels) {
   return std::set<std::string_view>(labels.text.begin(), labels.text.end()).size() ==
          labels.text.size();
@@ -55,7 +62,7 @@ class ArtefactList {
                         place_in_row(table, row, label, "empty"),
                         fmt::format("write the label of the {}, or delete the row", noun()));
       else
-        list(table, row, label, position == nullptr ? "" : position->text[row]);
+        list(table, row, label, position);
   }
 
   /// After all points are listed.
@@ -74,40 +81,78 @@ class ArtefactList {
 
   /// A file has one kind of reading, and each row of it has one.
   void check_columns(const Table& table, const Column& label) {
-    for (const ReadingDescriptor& other : artefact_readings())
-      if (const Column* column = table.find_text(other.label);
-          column != nullptr && column != &label && other.value == nullptr)
+    const std::string own = label.name;
+    for (const char* other : {"point", "plane", "sphere", "anchor"})
+      if (const Column* column = table.find_text(other); column != nullptr && own != other)
         problems_.error(kPointCode,
                         fmt::format("columns '{}' and '{}': a row is about one of them",
                                     label.header, column->header),
                         place_in_header(table, *column, "the second one"),
                         "write rows of the other kind into a file of their own");
+    for (const auto& [other, label_of] :
+         {std::pair{"height", "plane"}, std::pair{"radius", "sphere"},
+          std::pair{"extension", "anchor"}, std::pair{"to_point", "point"}})
+      if (const Column* column = table.find(other); column != nullptr && own != label_of)
+        no_place_for(table, *column, label);
+    const Column* distance = table.find("distance");
+    const bool twice = own == "anchor" && table.find("extension") != nullptr;
+    if (distance != nullptr && (twice || (own != "anchor" && own != "point")))
+      no_place_for(table, *distance, label);
     const Column* value = find_value(table, descriptor_of(kind_));
     if (kind_ == ReadingKind::kDistance && value == nullptr)
       return problems_.error(kPointCode, "nothing says how far the target is from the anchor",
                              place_in_header(table, label, "needs one more column"),
                              "add 'distance_mm', or 'extension_mm' if the zero of the wire is not "
                              "known");
+    const bool distances = value != nullptr && value == distance;
     for (int row = 0; value != nullptr && row < table.rows(); ++row)
-      if (!std::isfinite(value->values[row]))
-        return problems_.error(kPointCode,
-                               fmt::format("column '{}' holds no number here", value->header),
-                               place_in_row(table, row, *value, "empty"),
-                               "write what was read there, or delete the row");
+      if (const double read = value->values[row];
+          !(std::abs(read) < kFarthest_m) || (distances && !(read > 0.0)))
+        return problems_.error(
+            kPointCode,
+            fmt::format("column '{}' holds {} here", value->header,
+                        std::isfinite(read) ? fmt::format("{:g} mm", read * 1e3) : "no number"),
+            place_in_row(table, row, *value, "no reading of an arm"),
+            "write what was read there, or delete the row");
   }
 
-  void list(const Table& table, int row, const Column& label, const std::string& position) {
+  void no_place_for(const Table& table, const Column& column, const Column& label) {
+    problems_.error(kPointCode,
+                    fmt::format("column '{}' says nothing of '{}'", column.header, label.header),
+                    place_in_header(table, column, "not used"),
+                    "delete the column, or name in another one what it is about");
+  }
+
+  /// One artefact stands in one place.
+  void check_position(const Table& table, int row, const Column* position, const Setup& setup) {
+    if (position == nullptr || position->text[row] == setup.position) return;
+    problems_.error(kPointCode,
+                    fmt::format("'{}' stands at '{}' here and at '{}' in a row before", setup.name,
+                                position->text[row], setup.position),
+                    place_in_row(table, row, *position, "contradicts it"),
+                    "give it another label where it was moved");
+  }
+
+  void list(const Table& table, int row, const Column& label, const Column* position) {
     const std::string& name = label.text[row];
     if (name.empty()) return;
     const auto [at, is_new] = index_.emplace(name, static_cast<int>(m_.setups.size()));
-    if (is_new) add(table, name, position);
+    if (is_new) add(table, name, position == nullptr ? "" : position->text[row]);
     Setup& setup = m_.setups[static_cast<std::size_t>(at->second)];
+    check_position(table, row, position, setup);
+    const bool extension = kind_ == ReadingKind::kDistance && table.find("distance") == nullptr;
+    if (setup.reads == ReadingKind::kDistance && kind_ == ReadingKind::kDistance &&
+        setup.fit_length != extension)
+      return problems_.error(
+          kPointCode, fmt::format("'{}' has distances in one file and extensions in another", name),
+          place_in_row(table, row, label, "two kinds of reading"),
+          "give one of them another label");
     if (descriptor_of(setup.reads).label != descriptor_of(kind_).label)
-      return problems_.error(kPointCode,
-                             fmt::format("'{}' is a {} here and a {} in another file", name, noun(),
-                                         descriptor_of(setup.reads).noun),
-                             place_in_row(table, row, label, "has two meanings"),
-                             "give one of them another label");
+      return problems_.error(
+          kPointCode,
+          fmt::format("'{}' is {} here and {} in another file", name, with_article(noun()),
+                      with_article(descriptor_of(setup.reads).noun)),
+          place_in_row(table, row, label, "has two meanings"), "give one of them another label");
     if (setup.reads == ReadingKind::kSphere) take_radius(table, row, is_new, setup);
   }
 
@@ -279,8 +324,8 @@ void ignore_few_readings(const MeasurementSettings& m, MeasurementFiles& measure
              ? fmt::format("a point that is touched only once says nothing, and its row is not "
                            "used: {}",
                            fmt::join(which, ", "))
-             : fmt::format("a {} with so few readings says nothing, and they are not used: {}",
-                           noun, fmt::join(which, ", ")),
+             : fmt::format("{} with so few readings says nothing, and they are not used: {}",
+                           with_article(noun), fmt::join(which, ", ")),
          place_in_header(table, *artefact_column(table), "labels"),
          fmt::format("give rows of one {} the same label, or measure it again from other "
                      "directions",

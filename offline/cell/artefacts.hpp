@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "cell/cell.hpp"
@@ -44,6 +45,12 @@ void assign_placements(const MeasurementSettings& settings, MeasurementFiles& me
 inline bool of_artefact(const MeasurementSettings& settings, int setup) {
   const auto k = static_cast<std::size_t>(setup);
   return k < settings.setups.size() && settings.setups[k].is_artefact();
+}
+
+/// Whether any of them are.
+inline bool has_artefacts(const MeasurementSettings& settings) {
+  return std::any_of(settings.setups.begin(), settings.setups.end(),
+                     [](const Setup& s) { return s.is_artefact(); });
 }
 
 /// Whether nothing that was read is a length, and no joint slides: then the shape of the arm shows,

@@ -141,6 +141,7 @@ void plan_the_recheck(const PlanArguments& options, const Globals& globals, Outc
   Cell cell = open_cell(globals, outcome);
   planned_file(options).check(options.write, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
+  check_plannable(cell);
   const Run run = latest_recheck(cell, current_or_new_run(cell, measured, Keep::kRun, outcome));
   const Run calibrated = calibrated_run(cell, run);
   const int n = options.n > 0 ? options.n : kRecheckPoses;

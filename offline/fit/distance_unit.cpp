@@ -27,10 +27,9 @@ struct Unit {
   double times;  // of the one that is written
   const char* words;
 };
-constexpr Unit kUnits[] = {
-    {25.4, "inches in a column of mm"},   {1.0 / 25.4, "mm in a column of inches"},
-    {1000.0, "metres in a column of mm"}, {1e-3, "mm in a column of metres"},
-    {10.0, "ten times too small"},        {0.1, "ten times too large"}};
+constexpr Unit kUnits[] = {{25.4, "as inches are to mm"},   {1.0 / 25.4, "as mm are to inches"},
+                           {1000.0, "as metres are to mm"}, {1e-3, "as mm are to metres"},
+                           {10.0, "as cm are to mm"},       {0.1, "as mm are to cm"}};
 
 /// By how much the distances d must be multiplied so that they meet in one centre c:
 ///
@@ -82,10 +81,11 @@ void warn_of_distance_unit(const Cell& cell, MeasurementFiles& measured) {
     const Column& column = *value_column(table);
     table.remarks.push_back(
         {Severity::kWarning, "W-FIT-UNIT",
-         fmt::format("the nominal arm meets these distances if they are {:.3g} times as large: {}",
-                     scale, unit.words),
+         fmt::format(
+             "the nominal arm meets these distances only if they are {:.3g} times as large, {}",
+             scale, unit.words),
          place_in_header(table, column, "which unit?"),
-         "write the unit of the numbers into the name of the column, as in distance_in"});
+         "write the unit of the numbers into the name of the column"});
     return;
   }
 }

@@ -314,6 +314,28 @@ void remark_on_marks(const Cell& cell, Fit& out) {
        .help = "to let plumb choose instead: plumb fit --held-out 20%"});
 }
 
+/// 1 sigma of what the common scale of all lengths of the arm does at its reach [m].
+double sigma_of_size(const Calibration& c) {
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(c.covariance.rows());
+  double squares = 0.0;
+  for (std::size_t i = 0; i < c.estimates.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (!c.estimates[i].of_robot || !c.estimates[i].is_length || k >= along.size()) continue;
+    along(k) = c.estimates[i].value;
+    squares += along(k) * along(k);
+  }
+  if (squares == 0.0) return 0.0;
+  const double variance = along.dot(c.covariance * along) / (squares * squares);
+  return std::sqrt(std::max(0.0, variance)) * reach(c.state.arm.calibrated);
+}
+
+/// Whether readings about artefacts leave the size of the arm open: no length was read, or those
+/// that were read tell it less well than the tolerance.
+bool size_is_unknown(const Cell& cell, const Calibration& c) {
+  return lacks_length(cell) ||
+         (has_artefacts(cell.measurement) && sigma_of_size(c) > cell.tolerance_m);
+}
+
 void remark_on_still_joints(Fit& out) {
   if (out.still.empty()) return;
   out.remarks.push_back({.severity = Severity::kWarning,
@@ -368,7 +390,7 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
   out.still = still_joints(cell, measured, fit);
-  out.size_unknown = lacks_length(cell);
+  out.size_unknown = size_is_unknown(cell, out.calibration);
   const double coordinates = fitted_coordinates(measured, out.split);
   const double numbers = out.calibration.decided + out.calibration.series_dof;
   out.unavoidable_ratio =

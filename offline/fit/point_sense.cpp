@@ -6,18 +6,37 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "arm/predicted_points.hpp"
 #include "cell/artefacts.hpp"
 #include "fit/constants.hpp"
 #include "fit/point_distances.hpp"
 #include "numbers/tails.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
 
 std::string name_of(const MeasurementSettings& m, int setup) {
   return m.setups[static_cast<std::size_t>(setup)].name;
+}
+
+/// W-FIT-PLACES: with fewer placements no whole one is held out.
+void find_few_placements(const Measurements& fitted, std::vector<Problem>& out) {
+  std::set<int> placements;
+  for (int i = 0; i < fitted.size(); ++i) {
+    if (!fitted.of_artefact(i)) return;
+    placements.insert(fitted.placement[static_cast<std::size_t>(i)]);
+  }
+  if (placements.size() >= static_cast<std::size_t>(kFewestPlacements)) return;
+  out.push_back({.severity = Severity::kWarning,
+                 .code = "W-FIT-PLACES",
+                 .message = fmt::format(
+                     "all readings are of {}: the held-out error is that there, "
+                     "and says little of other places",
+                     counted_words(static_cast<long long>(placements.size()), "place", "places")),
+                 .help = "measure at four places or more, high and low, near and far"});
 }
 
 void find_contradicted(const MeasurementSettings& m, const Calibration& c,
@@ -111,6 +130,7 @@ std::vector<Problem> point_remarks(const MeasurementSettings& settings, const Me
   for (const auto& [setup, of_one] : rows)
     if (settings.setups[static_cast<std::size_t>(setup)].reads == ReadingKind::kPoint)
       touched.push_back(setup);
+  find_few_placements(fitted, out);
   find_contradicted(settings, calibration, out);
   find_same(settings, calibration, touched, out);
   find_moved(settings, fitted, calibration, rows, out);

@@ -157,6 +157,13 @@ void leave_out_repeats_of_held(const Measurements& m, Split& split) {
          "hold out other poses than those fitted, or let plumb choose: plumb fit --held-out 20%");
 }
 
+std::size_t used_placements(const Measurements& m) {
+  std::set<int> out;
+  for (int i = 0; i < m.size() && !m.placement.empty(); ++i)
+    if (m.placement[i] >= 0 && m.set[i] != SetMark::kIgnore) out.insert(m.placement[i]);
+  return out.size();
+}
+
 /// The columns that a split reads, with replicate groups of the rows that stay together. They treat
 /// the same pose in two set-ups as one: held out in one of them, it must not be fitted in the
 /// other.
@@ -169,7 +176,7 @@ Measurements grouped(const Measurements& m, NeverSplit together) {
   out.placement = m.placement;
   out.file = m.file;
   out.replicate_group = pose_groups(m);
-  if (together == NeverSplit::kPoses || count_groups(m.placement) < kFewestPlacements) return out;
+  if (together == NeverSplit::kPoses || used_placements(m) < kFewestPlacements) return out;
   const auto poses = static_cast<int>(count_groups(out.replicate_group));
   std::map<int, int> number;
   for (int i = 0; i < m.size(); ++i) {
@@ -182,12 +189,18 @@ Measurements grouped(const Measurements& m, NeverSplit together) {
 
 /// Folds of rows that all touch fixed points, as many as there are placements; 0 of other rows, and
 /// where there are too few placements.
-int folds_of_placements(const Measurements& m) {
-  const bool all = !m.placement.empty() && std::all_of(m.placement.begin(), m.placement.end(),
-                                                       [](int k) { return k >= 0; });
-  const auto count = static_cast<int>(count_groups(m.replicate_group));
-  const bool whole = all && count <= static_cast<int>(count_groups(m.placement));
-  return whole ? std::min(count, kMostPlacementFolds) : 0;
+int folds_of_placements(const Measurements& m, const std::vector<bool>& used) {
+  if (m.placement.empty()) return 0;
+  std::set<int> groups, placements;
+  for (int i = 0; i < m.size(); ++i) {
+    if (!used[i]) continue;
+    if (m.placement[i] < 0) return 0;
+    groups.insert(m.replicate_group[i]);
+    placements.insert(m.placement[i]);
+  }
+  return groups.size() <= placements.size()
+             ? std::min(static_cast<int>(groups.size()), kMostPlacementFolds)
+             : 0;
 }
 
 /// Which rows belong to a set-up of few poses, shape (n,).
@@ -224,7 +237,7 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
     case HeldOutRule::Kind::kAuto:
       if (marks_held_rows(m))
         hold_marked(m, split);
-      else if (const int folds = folds_of_placements(m); folds > 0)
+      else if (const int folds = folds_of_placements(m, split.used); folds > 0)
         make_folds(m, folds, random, split);
       else if (static_cast<int>(representatives(m, split.used).size()) <= kFoldsUpTo)
         make_folds(m, kAutoFolds, random, split);

@@ -100,9 +100,18 @@ Problem reflector_as_earlier(const EarlierArm& earlier, const std::vector<Parame
 
 void check_placed_by_poses(const FitData& data, const UnknownNumbers& unknown,
                            const std::vector<std::string>& held) {
+  std::set<int> seen;
+  for (const int row : data.rows) seen.insert(setup_of(*data.measured, row));
+  // Of an artefact that is held out no row is fitted, and its own rows tell where it is.
+  const auto held_out = [&](const std::string& name) {
+    return std::any_of(unknown.candidates.begin(), unknown.candidates.end(), [&](const auto& p) {
+      return p.name == name && !seen.contains(p.setup) && p.of_base() &&
+             p.kind != Parameter::Kind::kFrame;
+    });
+  };
   std::vector<std::string> open;
   for (const auto& name : unknown.placing)
-    if (is_among(name, held)) open.push_back(name);
+    if (is_among(name, held) && !held_out(name)) open.push_back(name);
   if (open.empty()) return;
   throw Failure(Exit::kNumbersSayNo,
                 {.code = "E-FIT-FEW",

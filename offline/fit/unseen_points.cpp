@@ -9,11 +9,16 @@
 #include "arm/predicted_points.hpp"
 #include "cell/artefacts.hpp"
 #include "noise/weights.hpp"
+#include "numbers/quantile.hpp"
 #include "solve/artefact_start.hpp"
 #include "solve/solver.hpp"
 
 namespace plumb::offline {
 namespace {
+
+/// So many times the median of the readings of an artefact: chosen as 10 standard deviations, for a
+/// bad reading pulls the artefact towards itself and makes all others larger.
+constexpr double kFarReading = 15.0;
 
 /// Rows of each artefact of which `fitted` has none.
 std::map<int, std::vector<int>> rows_of_unseen(const MeasurementSettings& settings,
@@ -31,6 +36,17 @@ std::map<int, std::vector<int>> rows_of_unseen(const MeasurementSettings& settin
   return out;
 }
 
+/// The reading that lies farthest from an artefact fitted to `numbers` numbers, if it is far
+/// outside the scatter of the others and these are enough without it.
+std::optional<Eigen::Index> far_reading(const Solution& solution, std::size_t numbers) {
+  const Eigen::VectorXd size = solution.residual.cwiseAbs();
+  if (size.size() < 2 * static_cast<Eigen::Index>(numbers + 1)) return std::nullopt;
+  Eigen::Index worst = 0;
+  const double largest = size.maxCoeff(&worst);
+  const double usual = median({size.data(), size.data() + size.size()});
+  return largest > kFarReading * usual ? std::optional(worst) : std::nullopt;
+}
+
 /// Fits where the artefact is to its own rows, with the arm and the target as they are.
 void place_artefact(const MeasurementSettings& settings, const Measurements& measured,
                     const std::vector<int>& rows, int setup, ArmState& state) {
@@ -38,12 +54,17 @@ void place_artefact(const MeasurementSettings& settings, const Measurements& mea
   data.measured = &measured;
   data.rows = rows;
   data.sigma_m = Rows3::Constant(measured.size(), 3, kUnstatedSigma_m);
-  std::vector<Parameter> own = artefact_parameters(settings, setup);
+  const std::vector<Parameter> own = artefact_parameters(settings, setup);
   std::optional<Solution> best;
   const bool length = settings.setups[static_cast<std::size_t>(setup)].fit_length;
   for (const ArmState& start : artefact_starts(pick(measured, rows), state, setup, length)) {
     Solution one = solve(data, start, own);
     if (!best || one.cost < best->cost) best = std::move(one);
+  }
+  // A bad reading counts as an error of its own, and not as one of all others of its artefact.
+  while (const auto worst = far_reading(*best, own.size())) {
+    data.rows.erase(data.rows.begin() + *worst);
+    best = solve(data, best->state, own);
   }
   state.frame(setup) = best->state.frame(setup);
   state.length(setup) = best->state.length(setup);

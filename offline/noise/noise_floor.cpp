@@ -12,6 +12,7 @@
 #include "cell/group_rows.hpp"
 #include "noise/constants.hpp"
 #include "noise/repeat_groups.hpp"
+#include "noise/weights.hpp"
 #include "numbers/quantile.hpp"
 #include "solve/constants.hpp"
 
@@ -150,6 +151,16 @@ PooledScatter pooled_repeats(const Measurements& m, const Rows3& left_M, int axe
   return out;
 }
 
+/// What the cell states of one coordinate; of readings about artefacts alone, what it states of
+/// them.
+std::optional<double> stated_floor(const Cell& cell, const Measurements& measured) {
+  const bool artefacts =
+      !measured.kind.empty() &&
+      std::all_of(measured.kind.begin(), measured.kind.end(),
+                  [](ReadingKind kind) { return kind != ReadingKind::kPosition; });
+  return artefacts ? sigma_of_touches(cell, measured) : cell.measurement.sigma_m;
+}
+
 /// left_M: the readings, or their residuals from a model.
 NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3& left_M) {
   const int axes = measured.usual_axes();
@@ -164,8 +175,8 @@ NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3&
     out.sigma_m = std::sqrt(measured.sigma_m.squaredNorm() /
                             (static_cast<double>(measured.sigma_m.rows()) * axes));
     out.source = NoiseFloor::Source::kSigma;
-  } else if (cell.measurement.sigma_m) {
-    out.sigma_m = *cell.measurement.sigma_m;
+  } else if (const auto stated = stated_floor(cell, measured)) {
+    out.sigma_m = *stated;
     out.source = NoiseFloor::Source::kSigma;
   }
   out.mean_m = mean_norm(axes) * out.sigma_m;

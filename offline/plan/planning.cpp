@@ -77,9 +77,10 @@ Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
   return cell;
 }
 
-PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
-                   PosePlan& out) {
-  if (of_artefact(cell.measurement, 0))
+}  // namespace
+
+void check_plannable(const Cell& cell) {
+  if (has_artefacts(cell.measurement))
     throw Failure(
         Exit::kInput,
         {.code = "E-PLAN-POINT",
@@ -87,6 +88,13 @@ PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanReq
                     "planes or anchors have their own places",
          .help = "at each of them turn the tool about all axes as far as it goes, at four "
                  "places or more, high and low, near and far"});
+}
+
+namespace {
+
+PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
+                   PosePlan& out) {
+  check_plannable(cell);
   if (const auto& setups = cell.measurement.setups; setups.size() > 1)
     out.remarks.push_back(
         {.severity = Severity::kNote,

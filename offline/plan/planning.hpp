@@ -5,6 +5,9 @@
 
 namespace plumb::offline {
 
+/// Throws Failure (kInput, E-PLAN-POINT) for a cell with readings about artefacts.
+void check_plannable(const Cell& cell);
+
 /// D-optimal poses [Fedorov 1972] for geometry and the effects of the cell, given those measured;
 /// or those that tell two effects A and B apart: poses, and what else matters for the two, are
 /// chosen so that the evidence for A over B is expected to be large if A is true with its fitted

@@ -150,9 +150,10 @@ Blocks artefacts_blocks(const Cell& cell, const Calibration& c) {
     out.push_back(under(distance_words(m, distance)));
   if (lacks_length(cell))
     out.push_back(
-        under("no length is known: these readings tell the shape of the arm, and its size stays as "
-              "nominal; one length would settle it, as the known distance of two touched points "
-              "(columns to_point and distance_mm) or the radius of a sphere (radius_mm)"));
+        under("no length is known: these readings tell the shape of the arm and hardly its size; "
+              "one length "
+              "would settle it, as the known distance of two touched points (columns to_point and "
+              "distance_mm) or the radius of a sphere (radius_mm)"));
   return out;
 }
 

@@ -163,6 +163,37 @@ TEST_F(OtherArtefacts, ContradictionsAndGapsAreRefusedWithTheirPlace) {
   EXPECT_EQ(summary(problems_of(two_files)), (Summary{"E-CSV-POINT 2:3", "E-CSV-POINT 3:3"}));
 }
 
+TEST_F(OtherArtefacts, ColumnsThatDoNotBelongAreRefused) {
+  for (const char* header :
+       {"plane,radius_mm", "plane,distance_mm", "plane,extension_mm", "sphere,height_mm",
+        "sphere,distance_mm", "point,height_mm", "point,radius_mm"}) {
+    SCOPED_TRACE(header);
+    const auto found = errors(std::string("q1_deg,") + header + "\n1,A,100\n2,A,100\n");
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_TRUE(found.front().starts_with("E-CSV-POINT 1:")) << found.front();
+  }
+  EXPECT_EQ(errors("q1_deg,anchor,distance_mm,extension_mm\n1,A,9,1\n2,A,9,1\n"),
+            Summary{"E-CSV-POINT 1:15"});
+  EXPECT_EQ(errors("q1_deg,plane,anchor\n1,A,B\n2,A,B\n"), Summary{"E-CSV-POINT 1:14"});
+}
+
+TEST_F(OtherArtefacts, ReadingsThatNoArmCanMakeAreRefused) {
+  EXPECT_EQ(errors("q1_deg,anchor,distance_mm\n1,A,-700\n2,A,800\n"), Summary{"E-CSV-POINT 2:5"});
+  EXPECT_EQ(errors("q1_deg,anchor,distance_mm\n1,A,700\n2,A,1e300\n"), Summary{"E-CSV-POINT 3:5"});
+  EXPECT_EQ(errors("q1_deg,plane,height_mm\n1,A,1\n2,A,1e9\n"), Summary{"E-CSV-POINT 3:5"});
+  EXPECT_NO_THROW(read({"q1_deg,anchor,extension_mm\n1,A,-700\n2,A,0\n"}));
+}
+
+TEST_F(OtherArtefacts, OneArtefactStandsInOnePlaceAndHasOneKindOfReading) {
+  EXPECT_EQ(errors("q1_deg,plane,position\n1,A,X\n2,A,Y\n"), Summary{"E-CSV-POINT 3:5"});
+  EXPECT_EQ(errors("q1_deg,plane,position\n1,A,X\n2,A,\n"), Summary{"E-CSV-POINT 3:5"});
+  const auto two_files = [&] {
+    read({"q1_deg,anchor,distance_mm\n1,A,700\n2,A,800\n",
+          "q1_deg,anchor,extension_mm\n1,A,1\n2,A,2\n"});
+  };
+  EXPECT_EQ(summary(problems_of(two_files)), (Summary{"E-CSV-POINT 2:3", "E-CSV-POINT 3:3"}));
+}
+
 TEST_F(OtherArtefacts, WithNoMoreReadingsThanUnknownNumbersAreNotUsed) {
   const MeasurementFiles m = read({"q1_deg,plane\n1,A\n2,A\n3,A\n4,B\n5,B\n6,B\n7,B\n"});
   EXPECT_EQ(m.set[2], SetMark::kIgnore);

@@ -85,7 +85,11 @@ TEST_P(OtherReadings, AreFittedListedComparedDiagnosedAndCompiled) {
     const Ran ran = box.plumb({verb});
     EXPECT_EQ(ran.exit, 0) << verb << "\n" << ran.out << ran.err;
   }
-  EXPECT_EQ(box.plumb({"plan", "--n", "5"}).exit, 3);
+  for (const char* how : {"--n=5", "--recheck", "--separate=joint_compliance,link_flexure"}) {
+    const Ran plan = box.plumb({"plan", how});
+    EXPECT_EQ(plan.exit, 3) << how;
+    EXPECT_NE(plan.err.find("E-PLAN-POINT"), std::string::npos) << how << plan.err;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OtherReadings,
