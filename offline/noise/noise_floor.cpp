@@ -12,7 +12,7 @@
 #include "cell/group_rows.hpp"
 #include "noise/constants.hpp"
 #include "noise/repeat_groups.hpp"
-#include "noise/weights.hpp"
+#include "noise/stated_touch.hpp"
 #include "numbers/quantile.hpp"
 #include "solve/constants.hpp"
 

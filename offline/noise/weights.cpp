@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "noise/noise_floor.hpp"
+#include "noise/stated_touch.hpp"
 
 namespace plumb::offline {
 
@@ -16,13 +17,6 @@ Rows3 stated_sigma(const Cell& cell, const Measurements& measured) {
   for (Eigen::Index i = 0; i < out.rows(); ++i)
     if (measured.of_artefact(i)) out.row(i).setConstant(std::max(touch, kSmallestSigma_m));
   return out;
-}
-
-std::optional<double> sigma_of_touches(const Cell& cell, const Measurements& measured) {
-  const MeasurementSettings& m = cell.measurement;
-  const bool alone = std::all_of(measured.placement.begin(), measured.placement.end(),
-                                 [](int placement) { return placement >= 0; });
-  return m.sigma_touch_m || !alone ? m.sigma_touch_m : m.sigma_m;
 }
 
 double reading_sigma(const Cell& cell, const Measurements& used) {

@@ -22,10 +22,6 @@ inline constexpr double kUnstatedTouch_m = 50e-6;
 /// cell, else 10 um, of a touched point 50 um; never below 0.1 um.
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured);
 
-/// What the cell states of touched points [m]: sigma_touch_um, or sigma_um where all rows touch
-/// one.
-std::optional<double> sigma_of_touches(const Cell& cell, const Measurements& measured);
-
 /// 1 sigma of a coordinate for a plan of poses [m]: from repeats if there are enough, else as the
 /// cell states it, else 10 um. The error of the model does not count.
 double reading_sigma(const Cell& cell, const Measurements& used);

@@ -15,6 +15,8 @@
 #include "fit/point_distances.hpp"
 #include "fit/point_sense.hpp"
 #include "fit/unseen_points.hpp"
+#include "noise/noise_floor.hpp"
+#include "noise/stated_touch.hpp"
 #include "noise/weights.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/fit_lines.hpp"
@@ -202,6 +204,17 @@ TEST(UnseenPoints, StandWhereTheirRowsAreOnAverage) {
   const Rows3 held = predict_held_out(t.cell.measurement, t.measured, fitted, {3, 50}, c.state);
   EXPECT_NEAR(held.row(0).norm(), plain.row(3).norm() * std::sqrt(20.0 / 19.0), 1e-12);
   EXPECT_EQ(held.row(1), plain.row(50));
+}
+
+TEST(TouchedPoints, HaveTheSigmaThatTheCellStatesOfThemAndAloneThatOfAllReadings) {
+  Touched t({.seed = 7, .placements = 4, .touches = 4});
+  t.cell.measurement.sigma_m = 20e-6;
+  EXPECT_EQ(sigma_of_touches(t.cell, t.measured), 20e-6);
+  EXPECT_EQ(noise_floor(t.cell, t.measured).sigma_m, 20e-6);
+  t.cell.measurement.sigma_touch_m = 40e-6;
+  EXPECT_EQ(noise_floor(t.cell, t.measured).sigma_m, 40e-6);
+  t.cell.measurement.sigma_m.reset();
+  EXPECT_EQ(noise_floor(t.cell, t.measured).sigma_m, 40e-6);
 }
 
 }  // namespace
