@@ -69,9 +69,9 @@ std::vector<std::string> steps_after(const Cell& cell, const Diagnosis& d) {
 
 std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
   std::vector<std::string> out = steps_after(cell, d);
-  // Poses are not planned for an arm that touches fixed points.
+  // Poses are not planned in a cell with readings about artefacts: check_plannable.
   for (std::string& step : out)
-    if (of_artefact(cell.measurement, 0) && step.starts_with("plan ")) step = kWhatShows;
+    if (has_artefacts(cell.measurement) && step.starts_with("plan ")) step = kWhatShows;
   return out;
 }
 

@@ -18,7 +18,7 @@ struct ArmState {
   format::Model arm;      // calibrated chain, trees, domain; the rest may be empty
   format::Pose X_MB;      // base in the measurement frame
   format::Pose X_TG;      // reflector (gauge) in the tool frame
-  double length_m = 0.0;  // of an artefact of the first set-up: reading_geometry.hpp
+  double length_m = 0.0;  // of an artefact of the first set-up: observe/reading.hpp
 
   struct Placing {
     int frame_of = 0;   // index of the set-up whose frame it uses: its own, or an earlier one

@@ -147,7 +147,7 @@ class ArtefactList {
           kPointCode, fmt::format("'{}' has distances in one file and extensions in another", name),
           place_in_row(table, row, label, "two kinds of reading"),
           "give one of them another label");
-    if (descriptor_of(setup.reads).label != descriptor_of(kind_).label)
+    if (std::string_view(descriptor_of(setup.reads).label) != descriptor_of(kind_).label)
       return problems_.error(
           kPointCode,
           fmt::format("'{}' is {} here and {} in another file", name, with_article(noun()),
@@ -255,7 +255,7 @@ ReadingKind kind_of(const Table& table) {
     const Column* label = table.find_text(kind.label);
     if (label == nullptr || all_different(*label)) continue;
     const bool first = out == ReadingKind::kPosition;
-    const bool richer = !first && descriptor_of(out).label == kind.label;
+    const bool richer = !first && std::string_view(descriptor_of(out).label) == kind.label;
     if ((first && (kind.value == nullptr || kind.kind == ReadingKind::kDistance)) ||
         (richer && find_value(table, kind) != nullptr))
       out = kind.kind;

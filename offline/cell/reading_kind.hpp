@@ -22,7 +22,7 @@ enum class ReadingKind : unsigned char {
 ///
 /// In the frame of its artefact a reading is up to three coordinates. Points stand in the origin of
 /// that frame, planes are its z = 0, and of spheres and distances x is how far the target is from
-/// the origin, less a length that may be unknown (reading_geometry.hpp).
+/// the origin, less a length that may be unknown (observe/reading.hpp).
 struct ReadingDescriptor {
   ReadingKind kind;
   const char* label;          // column with the name of the artefact; null: positions

@@ -52,7 +52,7 @@ bool of_calibration(const MeasurementFiles& rows, const MeasurementFiles& own) {
 /// still the same is judged by positions in one frame.
 void refuse_touches(const Cell& cell, const MeasurementFiles& rows) {
   const bool of_rows = reads_artefact(rows.tables.front());
-  if (!of_rows && !of_artefact(cell.measurement, setup_count(cell.measurement) - 1)) return;
+  if (!of_rows && !has_artefacts(cell.measurement)) return;
   throw Failure(Exit::kInput,
                 {.code = "E-RECHECK-POINT",
                  .message = of_rows ? "rows that touch fixed points do not tell where the arm is: "

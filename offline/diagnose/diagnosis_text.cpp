@@ -156,7 +156,7 @@ std::string telling_words(const Cell& cell, const EffectEntry& first,
   for (const auto& other : others) {
     if (!other.not_shown.empty()) continue;
     out = "To tell them apart: " + separating_measurement(first, other.entry);
-    if (!of_artefact(cell.measurement, 0))
+    if (!has_artefacts(cell.measurement))
       out += fmt::format(" (plumb plan --separate {},{})", planning_argument(cell, first),
                          planning_argument(cell, other.entry));
     out += ".";

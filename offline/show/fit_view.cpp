@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 
@@ -145,10 +146,14 @@ Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
   return out;
 }
 
-/// Frames of set-ups have no nominal place; the table of set-ups says which of them are guessed.
+/// Frames of set-ups and artefacts have no nominal place; the table of set-ups says which frames
+/// are guessed.
 Blocks held_note(std::vector<std::string> held) {
   std::erase_if(held, [](const std::string& name) {
-    return name.starts_with("frame[") || name.find('[') != std::string::npos;
+    return name.starts_with("frame[") ||
+           std::ranges::any_of(artefact_readings(), [&](const ReadingDescriptor& kind) {
+             return name.starts_with(kind.noun);
+           });
   });
   if (held.empty()) return {};
   return {under(fmt::format("kept at nominal, because these poses say too little about them: {}",

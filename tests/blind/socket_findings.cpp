@@ -5,8 +5,6 @@
 
 #include "diagnose/certainty.hpp"
 #include "diagnose/diagnosis.hpp"
-#include "fit/cell_data.hpp"
-#include "tests/cell/support.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -27,12 +25,7 @@ Diagnosed diagnosed(const SocketWay& way, std::uint64_t seed, double yields) {
   SocketPlan plan = plan_of(way, seed);
   plan.yields_rad_per_Nm = yields;
   SocketArm arm(plan);
-  const Folder folder;
-  const auto file = folder.put("cell.toml", arm.cell_toml());
-  folder.put("measurements.csv", csv_of(arm, way));
-  Cell cell = read_cell(file);
-  cell.measurement.sigma_m = way.sigma_m;
-  const MeasurementFiles measured = read_cell_measurements(cell);
+  const auto [cell, measured] = read_way(arm, way);
   const Diagnosis d = diagnose(cell, measured, {});
   return {d.finding, certainty(cell, d) == Certainty::kCertain,
           !d.candidates.empty() && is_load(d.candidates.front().entry.name)};

@@ -24,7 +24,7 @@ struct SocketFindings {
 /// `arms` arms, seeds from `seed` on.
 SocketFindings socket_findings(const SocketWay& way, int arms, std::uint64_t seed);
 
-/// The second table of docs/without-a-tracker.md.
+/// The last table of docs/without-a-tracker.md.
 std::string findings_table(const std::vector<SocketFindings>& all);
 
 }  // namespace plumb::offline

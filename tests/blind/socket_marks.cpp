@@ -32,6 +32,20 @@ std::string tracker_csv(SocketArm& arm, const SocketWay& way) {
   return out;
 }
 
+std::string csv_of(SocketArm& arm, const SocketWay& way) {
+  switch (way.kind) {
+    case SocketWay::Kind::kTracker:
+      return tracker_csv(arm, way);
+    case SocketWay::Kind::kArtefacts:
+      return artefact_readings(arm, {.kind = way.artefacts,
+                                     .artefacts = kArtefacts,
+                                     .readings = way.readings / kArtefacts,
+                                     .sigma_m = way.sigma_m});
+    default:
+      return arm.measurements_csv();
+  }
+}
+
 }  // namespace
 
 SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
@@ -46,18 +60,15 @@ SocketPlan plan_of(const SocketWay& way, std::uint64_t seed) {
   return out;
 }
 
-std::string csv_of(SocketArm& arm, const SocketWay& way) {
-  switch (way.kind) {
-    case SocketWay::Kind::kTracker:
-      return tracker_csv(arm, way);
-    case SocketWay::Kind::kArtefacts:
-      return artefact_readings(arm, {.kind = way.artefacts,
-                                     .artefacts = kArtefacts,
-                                     .readings = way.readings / kArtefacts,
-                                     .sigma_m = way.sigma_m});
-    default:
-      return arm.measurements_csv();
-  }
+SocketCell read_way(SocketArm& arm, const SocketWay& way) {
+  const Folder folder;
+  const auto file = folder.put("cell.toml", arm.cell_toml());
+  folder.put("measurements.csv", csv_of(arm, way));
+  SocketCell out;
+  out.cell = read_cell(file);
+  out.cell.measurement.sigma_m = way.sigma_m;
+  out.measured = read_cell_measurements(out.cell);
+  return out;
 }
 
 std::string name_of(const SocketWay& way) {
@@ -101,12 +112,7 @@ double true_value(const SocketArm& arm, const std::string& name) {
 
 void judge(const SocketWay& way, std::uint64_t seed, SocketMarks& out) {
   SocketArm arm(plan_of(way, seed));
-  const Folder folder;
-  const auto file = folder.put("cell.toml", arm.cell_toml());
-  folder.put("measurements.csv", csv_of(arm, way));
-  Cell cell = read_cell(file);
-  cell.measurement.sigma_m = way.sigma_m;
-  const MeasurementFiles measured = read_cell_measurements(cell);
+  const auto [cell, measured] = read_way(arm, way);
   std::vector<int> rows(static_cast<std::size_t>(measured.size()));
   std::iota(rows.begin(), rows.end(), 0);
   try {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
 #include "tests/cases/artefact_readings.hpp"
 
 namespace plumb::offline {
@@ -29,10 +31,16 @@ struct SocketMarks {
   double inside_share() const { return numbers > 0 ? static_cast<double>(inside) / numbers : 0.0; }
 };
 
-/// What the arm of one way touches, the text of its measurements, and what the way is called.
+/// What the arm of one way touches, and what the way is called.
 SocketPlan plan_of(const SocketWay& way, std::uint64_t seed);
-std::string csv_of(SocketArm& arm, const SocketWay& way);
 std::string name_of(const SocketWay& way);
+
+/// The cell of that arm with the sigma of the way, and its readings.
+struct SocketCell {
+  Cell cell;
+  MeasurementFiles measured;
+};
+SocketCell read_way(SocketArm& arm, const SocketWay& way);
 
 /// Calibrates `arms` arms, seeds from `seed` on.
 SocketMarks socket_marks(const SocketWay& way, int arms, std::uint64_t seed);
