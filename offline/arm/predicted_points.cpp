@@ -87,12 +87,12 @@ Rows3 predict_points(const ArmState& state, const RowsN& q) {
   return out;
 }
 
-Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured) {
+Rows3 turns_of_target(const ArmState& state, const Measurements& measured) {
   const MeasuredArm arm(state.arm);
   const auto sensors = temperature_names(state.arm);
   const SetupPoses placed(state);
-  Eigen::VectorXd out(measured.q.rows());
-  for (Eigen::Index i = 0; i < out.size(); ++i) {
+  Rows3 out(measured.q.rows(), 3);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
     const auto setup = static_cast<std::size_t>(setup_of(measured, i));
     const Transformd& X_MB = placed.X_MB[setup];
     const MeasuredContext context = context_of(measured, i, sensors, X_MB);
@@ -100,9 +100,13 @@ Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured)
         X_MB.R * arm.predict(row_of(measured.q, i), context).X_BT.R * placed.X_TG[setup].R;
     const auto quat = measured.quat_M.row(i);
     const Matrix3 read = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
-    out(i) = rotation_vector(read * R_MG.transpose()).norm();
+    out.row(i) = rotation_vector(R_MG.transpose() * read).transpose();
   }
   return out;
+}
+
+Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured) {
+  return turns_of_target(state, measured).rowwise().norm();
 }
 
 Rows3 residuals(const Measurements& measured, const Rows3& predicted) {

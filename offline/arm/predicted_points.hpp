@@ -25,6 +25,10 @@ Rows3 predict_points(const ArmState& state, const RowsN& q);
 MeasuredContext context_of(const Measurements& at, Eigen::Index row,
                            const std::vector<std::string>& sensors, const Transformd& X_MB);
 
+/// The turn from the predicted to the measured orientation of the target, as a rotation vector in
+/// the target's frame [rad], shape (n, 3).
+Rows3 turns_of_target(const ArmState& state, const Measurements& measured);
+
 /// Angle between measured and predicted orientation of the reflector [rad], shape (n,).
 Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured);
 

@@ -154,8 +154,9 @@ std::string next_step(const Recheck& found) {
     case Recheck::Verdict::kChanged:
       break;
   }
-  return found.something_else ? "plan --n 30   # measure anew, then fit"
-                              : "compile --force   # the model with what has changed";
+  return found.something_else || found.turns.turned()
+             ? "plan --n 30   # measure anew, then fit"
+             : "compile --force   # the model with what has changed";
 }
 
 void recheck_cell(const RecheckArguments& options, const Globals& globals, Outcome& outcome) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "arm/joint_turns.hpp"
 #include "arm/predicted_points.hpp"
 #include "cell/group_rows.hpp"
 #include "compare/profiles.hpp"
@@ -37,10 +38,12 @@ double share_within(const Rows3& error, const std::vector<int>& rows, double tol
   return static_cast<double>(within) / static_cast<double>(rows.size());
 }
 
-SamplesOf samples_of(const Measurements& measured, const Errors& errors, Comparison::Set set) {
+/// judged, final: how far each row is missed, out of fold where it was held out, and by the final
+/// model. `errors` must live longer.
+SamplesOf samples_of(const Measurements& measured, const Errors& errors, Comparison::Set set,
+                     Eigen::VectorXd judged_size, Eigen::VectorXd final_size) {
   using Which = Sample::Set;
-  std::vector<bool> fitted(static_cast<std::size_t>(errors.judged_M.rows()), false),
-      judged = fitted;
+  std::vector<bool> fitted(static_cast<std::size_t>(measured.size()), false), judged = fitted;
   for (const int i : errors.fit) fitted[static_cast<std::size_t>(i)] = true;
   for (const int i : set == Comparison::Set::kHeldOut ? errors.held : errors.fit)
     judged[static_cast<std::size_t>(i)] = true;
@@ -50,17 +53,18 @@ SamplesOf samples_of(const Measurements& measured, const Errors& errors, Compari
     repeat.push_back(seen[group]);
     seen[group] = true;
   }
-  return [&errors, fitted, judged, repeat](const std::function<double(int)>& value) {
+  return [&errors, fitted, judged, repeat, judged_size = std::move(judged_size),
+          final_size = std::move(final_size)](const std::function<double(int)>& value) {
     std::vector<Sample> out;
     out.reserve(errors.used.size());
     for (const int i : errors.used) {
       const auto k = static_cast<std::size_t>(i);
       out.push_back({.value = value(i),
-                     .error_m = errors.judged_M.row(i).norm(),
+                     .error = judged_size(i),
                      .set = !judged[k]  ? Which::kFitted
                             : fitted[k] ? Which::kBoth
                                         : Which::kJudged,
-                     .fit_error_m = errors.final_M.row(i).norm(),
+                     .fit_error = final_size(i),
                      .repeat = repeat[out.size()]});
     }
     return out;
@@ -71,6 +75,24 @@ int fitted_numbers(const Fit& fit) {
   auto out = static_cast<int>(fit.calibration.estimates.size());
   for (const auto& tree : fit.calibration.state.arm.trees)
     out += static_cast<int>(tree.coefficients.size());
+  return out;
+}
+
+Turns turns_of(const Cell& cell, const Measurements& measured, const Fit& fit, const Errors& errors,
+               Comparison::Set set) {
+  Turns out;
+  if (fit.turned_G.size() == 0 || !measured.has_orientation()) return out;
+  const ArmState& state = fit.calibration.state;
+  const Eigen::VectorXd size = fit.turned_G.rowwise().norm();
+  for (const int i : set == Comparison::Set::kHeldOut ? errors.held : errors.fit)
+    out.poses.push_back({i, measured.pose[static_cast<std::size_t>(i)], size(i)});
+  std::stable_sort(out.poses.begin(), out.poses.end(),
+                   [](const auto& a, const auto& b) { return a.error_rad > b.error_rad; });
+  out.profiles = profiles(cell, measured, state,
+                          samples_of(measured, errors, set, size, turn_errors(state, measured)));
+  const RowsN about = turns_about_joints(state, measured, fit.turned_G);
+  out.joints = turn_shares(about, fit.turned_G, measured.q, errors.used);
+  out.axis = main_axis(about, fit.turned_G, errors.used);
   return out;
 }
 
@@ -95,7 +117,10 @@ Comparison comparison(const Cell& cell, const Measurements& measured, const Fit&
     return a.error_M.norm() > b.error_M.norm();
   });
   const ArmState& state = fit.calibration.state;
-  out.profiles = profiles(cell, measured, state, samples_of(measured, errors, out.set));
+  out.profiles = profiles(cell, measured, state,
+                          samples_of(measured, errors, out.set, errors.judged_M.rowwise().norm(),
+                                     errors.final_M.rowwise().norm()));
+  out.turns = turns_of(cell, measured, fit, errors, out.set);
   // Without gross outliers, which would look like a jump.
   const auto alike = [&](const std::vector<int>& all) {
     return without_outliers(without_outliers(all, fit.calibration.outliers), fit.held_outliers);

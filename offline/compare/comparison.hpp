@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,22 @@ struct PoseError {
   bool held = false;
 };
 
+/// A pose and the error of its orientation [rad].
+struct TurnError {
+  int row = 0;
+  std::string pose;
+  double error_rad = 0.0;
+};
+
+/// The errors of orientations, where these are fitted: of the set that is judged, worst first, and
+/// what they change with.
+struct Turns {
+  std::vector<TurnError> poses;
+  std::vector<ErrorProfile> profiles;
+  std::vector<JointShare> joints;  // of the squared turn, about the axis of each
+  std::optional<AxisShare> axis;
+};
+
 /// Model against measurements: how large the errors are, where, and since when.
 struct Comparison {
   enum class Set { kHeldOut, kFit } set = Set::kHeldOut;  // what is judged
@@ -31,6 +48,7 @@ struct Comparison {
   double fit_within_tolerance = 0.0;                      // in-sample: never accuracy
   std::vector<PoseError> poses;                           // of that set, worst first
   std::vector<ErrorProfile> profiles;
+  Turns turns;                     // empty if orientations are not fitted
   std::vector<JointShare> joints;  // turning joints, in their order
   LackOfFit lack_of_fit;
   Autocorrelation order;

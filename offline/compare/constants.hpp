@@ -24,6 +24,9 @@ inline constexpr double kJointMoves_rad = 1e-6;
 /// Share of the squared error above which a joint's own angle clearly explains a part of it: the
 /// scatter of the joints alone shows up to a tenth. chosen; set on 2026-11-24.
 inline constexpr double kClearJointShare = 0.15;
+/// Standard deviations by which the share of turns about one axis exceeds that of turns in any
+/// direction before it is said. chosen; set on 2026-11-29.
+inline constexpr double kClearAxis = 5.0;
 /// ln of the probability of a lack of fit by chance: once in a thousand. textbook.
 inline constexpr double kLackOfFit_ln_p = -6.9;
 /// Degrees of freedom that stand for an exactly known sigma. textbook: the limit of F is

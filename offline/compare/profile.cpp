@@ -55,11 +55,11 @@ int bin_of(double value, const std::vector<ErrorBin>& bins, const std::vector<do
 
 void add(const Sample& sample, ErrorBin& bin) {
   if (sample.set != Sample::Set::kFitted) {
-    bin.mean_m += sample.error_m;
+    bin.mean += sample.error;
     ++bin.n;
   }
   if (sample.set != Sample::Set::kJudged) {
-    bin.fit_mean_m += sample.fit_error_m;
+    bin.fit_mean += sample.fit_error;
     ++bin.fit_n;
   }
 }
@@ -71,10 +71,10 @@ void explain(const std::vector<Sample>& samples, const std::vector<int>& bin, Er
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (bin[i] < 0 || samples[i].repeat) continue;
     const auto k = static_cast<std::size_t>(bin[i]);
-    sum[k] += samples[i].error_m;
+    sum[k] += samples[i].error;
     count[k] += 1.0;
-    total += samples[i].error_m;
-    squares += samples[i].error_m * samples[i].error_m;
+    total += samples[i].error;
+    squares += samples[i].error * samples[i].error;
     n += 1.0;
   }
   double between = 0.0, filled = 0.0;
@@ -98,8 +98,8 @@ double ErrorProfile::contrast() const {
   double low = std::numeric_limits<double>::max(), high = 0.0;
   for (const auto& bin : bins) {
     if (bin.n == 0) continue;
-    low = std::min(low, bin.mean_m);
-    high = std::max(high, bin.mean_m);
+    low = std::min(low, bin.mean);
+    high = std::max(high, bin.mean);
   }
   return low > 0.0 && high > low ? high / low : 1.0;
 }
@@ -115,8 +115,8 @@ ErrorProfile profile(ErrorProfile out, const std::vector<Sample>& samples,
     if (bin[i] >= 0) add(samples[i], out.bins[static_cast<std::size_t>(bin[i])]);
   }
   for (auto& b : out.bins) {
-    if (b.n > 0) b.mean_m /= b.n;
-    if (b.fit_n > 0) b.fit_mean_m /= b.fit_n;
+    if (b.n > 0) b.mean /= b.n;
+    if (b.fit_n > 0) b.fit_mean /= b.fit_n;
   }
   explain(samples, bin, out);
   return out;

@@ -7,13 +7,13 @@
 namespace plumb::offline::compare {
 
 /// Errors of the poses at which a quantity lies between `from` and `to`. Fitted poses are counted
-/// separately, because their error is in-sample.
+/// separately, because their error is in-sample. Errors are in [m], those of orientations in [rad].
 struct ErrorBin {
   double from = 0.0, to = 0.0;  // SI, [degC], or rows of the file
   int n = 0;                    // poses of the judged set
-  double mean_m = 0.0;          // their mean error; 0 if n == 0
+  double mean = 0.0;            // their mean error; 0 if n == 0
   int fit_n = 0;                // fitted poses
-  double fit_mean_m = 0.0;
+  double fit_mean = 0.0;
 };
 
 /// How the error depends on one quantity.
@@ -41,19 +41,19 @@ struct ErrorProfile {
   double contrast() const;
 };
 
-/// A pose and the size of its error [m].
+/// A pose and the size of its error.
 struct Sample {
   double value = 0.0;  // of the quantity
-  double error_m = 0.0;
+  double error = 0.0;
   enum class Set { kJudged, kFitted, kBoth } set = Set::kJudged;
-  double fit_error_m = 0.0;  // of kFitted and kBoth: in-sample
-  bool repeat = false;       // another sample is of the same pose, so this one is no evidence
+  double fit_error = 0.0;  // of kFitted and kBoth: in-sample
+  bool repeat = false;     // another sample is of the same pose, so this one is no evidence
 };
 
 /// Fills bins of equal width between the extremes of the quantity: at most 6, with at least 8 poses
 /// each on average. With `labels`, one bin for each of these values instead. Samples without a
 /// value (NaN) are left out. `explained` and `ln_p` come from a one-way analysis of variance of
-/// error_m over all samples except repeats.
+/// error over all samples except repeats.
 ErrorProfile profile(ErrorProfile empty, const std::vector<Sample>& samples,
                      const std::vector<double>& labels = {});
 

@@ -22,4 +22,7 @@ std::string error_by_pose(const RunResults& results, double width);
 /// all enlarged by one stated factor, and the arm in one pose.
 std::string error_map(const RunResults& results, double width);
 
+/// The errors of measured orientations over each joint, if the run fitted orientations.
+std::string orientations_figure(const RunResults& results, double width);
+
 }  // namespace plumb::offline::figures

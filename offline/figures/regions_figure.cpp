@@ -39,9 +39,8 @@ std::vector<ErrorProfile> regions_of(const RunResults& results, const std::vecto
     std::set<int> seen;
     for (const int row : rows) {
       const int group = results.measured.replicate_group[static_cast<std::size_t>(row)];
-      all.push_back({.value = value(row),
-                     .error_m = results.after(row),
-                     .repeat = !seen.insert(group).second});
+      all.push_back(
+          {.value = value(row), .error = results.after(row), .repeat = !seen.insert(group).second});
     }
     return all;
   };
@@ -66,7 +65,7 @@ std::string region_sentence(const std::vector<ErrorProfile>& profiles) {
   const ErrorBin* worst = nullptr;
   for (const auto& p : profiles)
     for (const auto& bin : p.bins)
-      if (p.matters && bin.n >= kFewInRegion && (worst == nullptr || bin.mean_m > worst->mean_m))
+      if (p.matters && bin.n >= kFewInRegion && (worst == nullptr || bin.mean > worst->mean))
         where = &p, worst = &bin;
   if (where == nullptr)
     return "The error is much the same everywhere: no joint and no region matters beyond chance.";
@@ -74,7 +73,7 @@ std::string region_sentence(const std::vector<ErrorProfile>& profiles) {
       "The error is largest where {} is between {} and {} {}: {} on average over {} "
       "poses, {} times that of the best part.",
       where->name, border_text(*where, worst->from), border_text(*where, worst->to),
-      is_angle(*where) ? "deg" : "mm", length_text(worst->mean_m), worst->n,
+      is_angle(*where) ? "deg" : "mm", length_text(worst->mean), worst->n,
       draw::digits(where->contrast(), 2));
 }
 
@@ -84,21 +83,20 @@ void draw_profile(const ErrorProfile& p, double y, double most_m, draw::Svg& svg
   for (std::size_t k = 0; k < p.bins.size(); ++k) {
     const ErrorBin& bin = p.bins[k];
     const double left = step * static_cast<double>(k),
-                 share = most_m > 0.0 ? bin.mean_m / most_m : 0.0;
+                 share = most_m > 0.0 ? bin.mean / most_m : 0.0;
     const bool few = bin.n < kFewInRegion;
     const draw::Paint paint = few ? draw::Paint(Tone::kPaper) : draw::magnitude_colour(share);
     const std::string range = fmt::format("{} {} to {} {}", p.name, border_text(p, bin.from),
                                           border_text(p, bin.to), is_angle(p) ? "deg" : "mm");
     panel.bar(left, y + 0.36, left + step, y + 0.96, paint, {.paint = Tone::kMuted, .width = 0.5},
-              bin.n > 0
-                  ? fmt::format("{}: {}, mean {}", range, counted_words(bin.n, "pose", "poses"),
-                                length_text(bin.mean_m))
-                  : range + ": no pose");
+              bin.n > 0 ? fmt::format("{}: {}, mean {}", range,
+                                      counted_words(bin.n, "pose", "poses"), length_text(bin.mean))
+                        : range + ": no pose");
     const double room = panel.x_at(left + step) - panel.x_at(left) - 6.0;
     const draw::Paint ink =
         few ? draw::Paint(Tone::kMuted)
             : draw::Paint(std::string(draw::is_bright(share) ? "#000000" : "#ffffff"));
-    std::string words = bin.n > 0 ? fmt::format("{} ({})", length_text(bin.mean_m), bin.n) : "";
+    std::string words = bin.n > 0 ? fmt::format("{} ({})", length_text(bin.mean), bin.n) : "";
     if (draw::text_width(words, 11.0) > room) words = std::to_string(bin.n);
     if (bin.n > 0)
       svg.text({panel.x_at(left + 0.5 * step), panel.y_at(y + 0.66) + 4.0}, draw::Anchor::kMiddle,
@@ -119,7 +117,7 @@ std::string regions_figure(const RunResults& results, double width) {
   double most_m = 0.0;
   for (const auto& p : profiles)
     for (const auto& bin : p.bins)
-      if (bin.n >= kFewInRegion) most_m = std::max(most_m, bin.mean_m);
+      if (bin.n >= kFewInRegion) most_m = std::max(most_m, bin.mean);
   auto notes = error_notes(results);
   notes.push_back(
       fmt::format("Colours: mean error of the judged poses, from 0 (dark) to {} (bright); "

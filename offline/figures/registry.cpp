@@ -67,6 +67,8 @@ const std::vector<Entry>& entries() {
        of_run(error_by_pose)},
       {{"error-map", "Error arrows over the workspace, from above, the side and the front"},
        of_run(error_map)},
+      {{"orientations", "How far measured orientations are missed, over each joint"},
+       of_run(orientations_figure)},
       {{"joints", "What is left as a deviation of each joint, over its own position"},
        of_run(joints_figure)},
       {{"joint-JN", "The same of one joint, large, with the law that was fitted to it"},
@@ -166,6 +168,8 @@ std::string why_empty(const std::string& name, const RunResults& results) {
     return unless(context_varies(results, Quantity::kPayload), "the payload never changed");
   if (name == "context-time")
     return unless(context_varies(results, Quantity::kTime), "no time was recorded");
+  if (name == "orientations")
+    return unless(results.run.fit.turned_G.size() > 0, "no measured orientations were fitted");
   if (name == "history") return unless(!results.rechecks.empty(), "the run was never rechecked");
   if (name == "formulas") return unless(has_formula(results), "the model has no formula");
   if (name == "leaf-map") {

@@ -27,11 +27,12 @@ struct Fit {
   std::optional<TreeChoice> tree;  // if [effects.local_tree] is listed
   Split split;
   Base base = Base::kArm;
-  Rows3 predicted_M;         // per row: out of fold if it was held out, else the final model's
-  ErrorStats nominal_held;   // of the nominal arm, frame and target fitted; same poses
-  ErrorStats held;           // of the calibrated model at the held-out poses
-  ErrorStats geometry_held;  // of the calibrated model without its tree
-  ErrorStats turn_held;      // of orientations [rad]; n = 0 if these are not fitted
+  Rows3 predicted_M;        // per row: out of fold if it was held out, else the final model's
+  Rows3 turned_G;           // the same of orientations, turns_of_target; empty: they are not fitted
+  ErrorStats nominal_held;  // of the nominal arm, frame and target fitted; same poses
+  ErrorStats held;          // of the calibrated model at the held-out poses
+  ErrorStats geometry_held;            // of the calibrated model without its tree
+  ErrorStats turn_held;                // of orientations [rad]; n = 0 if these are not fitted
   MeasuredOrientations orientations;   // as they were judged before the fit
   std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` includes them
   ErrorStats held_without_outliers;    // of the other held-out poses

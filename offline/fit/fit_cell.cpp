@@ -114,7 +114,7 @@ void overwrite(Rows3& all, const std::vector<int>& rows, const Rows3& with) {
 /// Predictions of the three models that are compared, out of fold where a pose is held out.
 struct HeldPredictions {
   Rows3 nominal, geometry, full;
-  Eigen::VectorXd turn_errors;  // of the full model, if orientations are fitted
+  Rows3 turned_G;  // of the full model, if orientations are fitted
 };
 
 void predict_held(const Cell& cell, const Measurements& measured, const FittedModel& fitted,
@@ -125,8 +125,8 @@ void predict_held(const Cell& cell, const Measurements& measured, const FittedMo
   predict(place_nominal(cell, measured, fit), out.nominal);
   predict(fitted.geometry_only, out.geometry);
   predict(fitted.calibration.state, out.full);
-  if (out.turn_errors.size() > 0)
-    out.turn_errors(held) = turn_errors(fitted.calibration.state, pick(measured, held));
+  if (out.turned_G.size() > 0)
+    overwrite(out.turned_G, held, turns_of_target(fitted.calibration.state, pick(measured, held)));
 }
 
 ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
@@ -362,7 +362,7 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   const Rows3 final_points = predict_points(final_model.calibration.state, measured);
   HeldPredictions predicted{final_points, final_points, final_points, {}};
   if (measured.has_orientation() && cell.measurement.sigma_rad)
-    predicted.turn_errors = Eigen::VectorXd::Zero(measured.size());
+    predicted.turned_G = turns_of_target(final_model.calibration.state, measured);
   const ArmState start = final_model.geometry_only;
   double open = out.split.folds > 0 ? 0.0 : left_open(cell, measured, final_model.calibration);
   for (int k = 0; k < out.split.folds; ++k) {
@@ -379,12 +379,13 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   out.nominal_held = stats_of(measured, predicted.nominal, held);
   out.geometry_held = stats_of(measured, predicted.geometry, held);
   out.held = stats_of(measured, predicted.full, held);
-  if (predicted.turn_errors.size() > 0) {
-    const Eigen::VectorXd turns = predicted.turn_errors(held);
+  if (predicted.turned_G.size() > 0) {
+    const Eigen::VectorXd turns = predicted.turned_G(held, Eigen::all).rowwise().norm();
     out.turn_held = summarise({turns.begin(), turns.end()});
   }
   out.fit = stats_of(measured, final_points, fit);
   out.predicted_M = std::move(predicted.full);
+  out.turned_G = std::move(predicted.turned_G);
   out.floor = noise_floor(cell, measured, final_model.calibration.state);
   if (cell.measurement.sigma_rad) out.turn_floor = orientation_floor(stated, measured);
   out.calibration = std::move(final_model.calibration);

@@ -175,6 +175,18 @@ void prefer_placing(const Judge& judge, const Measurements& own, double toleranc
   }
 }
 
+/// The orientations that are left once the changes found are in the state.
+TurnCheck turns_after(const Run& calibrated, const Search& search, const Readings& readings,
+                      const std::vector<int>& odd) {
+  std::vector<int> rows;
+  for (int i = 0; i < readings.rows.size(); ++i)
+    if (std::find(odd.begin(), odd.end(), i) == odd.end()) rows.push_back(i);
+  const bool placed = std::any_of(search.found().begin(), search.found().end(),
+                                  [](const Change& c) { return c.part == Part::kTool; });
+  return check_turns(calibrated, search.last().state, pick(readings.rows, rows), readings.poses,
+                     placed);
+}
+
 /// The changes that a new run can keep: assumed ones, single readings, and those that were decided.
 std::vector<Change> kept_changes(const Search& search, const std::vector<FoundChange>& found) {
   std::vector<Change> out = search.found();
@@ -236,6 +248,7 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
       search.found().begin(), search.found().begin() + static_cast<long>(search.assumed()));
   out.before =
       stats_of(left_out_errors(readings, only_assumed, search.nothing()), out.odd_readings);
+  out.turns = turns_after(calibrated, search, readings, out.odd_readings);
   const bool open = std::any_of(out.found.begin(), out.found.end(), undecided);
   const std::vector<Change> kept = kept_changes(search, out.found);
   const Judged refit = open ? judge.judge(kept) : last;
@@ -246,10 +259,10 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
                         out.odd_readings);
   out.predicted_M = readings.rows.p_M - left;
   out.calibration = refitted(cell, run.fit.calibration, setup, kept, refit);
-  if (open || out.only_elsewhere ||
-      (out.found.empty() && !out.something_else && !out.blind.empty()))
+  const bool as_before = out.found.empty() && !out.something_else && !out.turns.turned();
+  if (open || (out.only_elsewhere && !out.turns.turned()) || (as_before && !out.blind.empty()))
     out.verdict = Recheck::Verdict::kUndecidable;
-  else if (out.found.empty() && !out.something_else)
+  else if (as_before)
     out.verdict = Recheck::Verdict::kTrue;
   else
     out.verdict = Recheck::Verdict::kChanged;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "recheck/search.hpp"
+#include "recheck/turned.hpp"
 #include "recheck/visible.hpp"
 
 namespace plumb::offline::recheck {
@@ -40,6 +41,7 @@ struct Recheck {
   std::vector<FoundChange> found;  // the strongest first; single readings are not among them
   std::vector<int> odd_readings;   // rows that contradict all others and were not used
   bool something_else = false;     // the readings are missed by more than the changes explain
+  TurnCheck turns;                 // of orientations, where they are fitted and measured again
   int elsewhere = 0;               // readings at poses where the calibration had none nearby
   bool only_elsewhere = false;     // what they miss may be what the model has always missed there
   double excess = 1.0;             // RMS of what is left, over the RMS that is expected

@@ -26,17 +26,17 @@ struct FigurePage {
 };
 
 constexpr std::array kFigurePages{
-    FigurePage{"error-hist", Page::kVerdict},    FigurePage{"error-", Page::kWhere},
-    FigurePage{"regions", Page::kWhere},         FigurePage{"joint", Page::kPatterns},
-    FigurePage{"spectrum", Page::kPatterns},     FigurePage{"load", Page::kPatterns},
-    FigurePage{"context", Page::kPatterns},      FigurePage{"order", Page::kPatterns},
-    FigurePage{"coverage", Page::kData},         FigurePage{"evidence", Page::kMissing},
-    FigurePage{"observability", Page::kMissing}, FigurePage{"waterfall", Page::kAdded},
-    FigurePage{"leaf-map", Page::kAdded},        FigurePage{"formulas", Page::kAdded},
-    FigurePage{"parameters", Page::kParameters}, FigurePage{"correlation", Page::kParameters},
-    FigurePage{"history", Page::kVerdict},       FigurePage{"cost", Page::kController},
-    FigurePage{"latency", Page::kController},    FigurePage{"uncertainty", Page::kLimits},
-    FigurePage{"refusals", Page::kLimits}};
+    FigurePage{"error-hist", Page::kVerdict},     FigurePage{"error-", Page::kWhere},
+    FigurePage{"regions", Page::kWhere},          FigurePage{"orientations", Page::kWhere},
+    FigurePage{"joint", Page::kPatterns},         FigurePage{"spectrum", Page::kPatterns},
+    FigurePage{"load", Page::kPatterns},          FigurePage{"context", Page::kPatterns},
+    FigurePage{"order", Page::kPatterns},         FigurePage{"coverage", Page::kData},
+    FigurePage{"evidence", Page::kMissing},       FigurePage{"observability", Page::kMissing},
+    FigurePage{"waterfall", Page::kAdded},        FigurePage{"leaf-map", Page::kAdded},
+    FigurePage{"formulas", Page::kAdded},         FigurePage{"parameters", Page::kParameters},
+    FigurePage{"correlation", Page::kParameters}, FigurePage{"history", Page::kVerdict},
+    FigurePage{"cost", Page::kController},        FigurePage{"latency", Page::kController},
+    FigurePage{"uncertainty", Page::kLimits},     FigurePage{"refusals", Page::kLimits}};
 
 /// Joints whose own position explains something of the error, the one that explains most first.
 std::vector<std::string> joints_that_matter(const ReportData& data) {

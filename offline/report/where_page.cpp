@@ -29,7 +29,7 @@ show::Table worst_table(const ReportData& data) {
 Html where_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
   const auto put_figure = [&](const std::string&) { figures.put(Page::kWhere, html); };
-  html.blocks(show::where_blocks(data.comparison, data.answers), put_figure);
+  html.blocks(show::where_blocks(data.cell, data.comparison, data.answers), put_figure);
   html.table(worst_table(data));
   return html;
 }

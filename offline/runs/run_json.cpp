@@ -214,36 +214,48 @@ NoiseFloor floor_from_json(const Json& j) {
 }
 
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit) {
-  std::string out = "pose,set,fold,px_m,py_m,pz_m,note\n";
+  const bool turns = fit.turned_G.size() > 0;
+  std::string out = fmt::format("pose,set,fold,px_m,py_m,pz_m,{}note\n",
+                                turns ? "turn_x_rad,turn_y_rad,turn_z_rad," : "");
   for (int i = 0; i < measured.size(); ++i) {
     const auto p = fit.predicted_M.row(i);
     const char* set = !fit.split.used[i]                            ? "ignore"
                       : fit.split.held[i] || fit.split.fold[i] >= 0 ? "held"
                                                                     : "fit";
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{}\n", i + 1, set, fit.split.fold[i],
-                   p(0), p(1), p(2), reading_digest(measured, i));
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},", i + 1, set, fit.split.fold[i],
+                   p(0), p(1), p(2));
+    if (turns)
+      for (const double turn : fit.turned_G.row(i))
+        fmt::format_to(std::back_inserter(out), "{},", turn);
+    fmt::format_to(std::back_inserter(out), "{}\n", reading_digest(measured, i));
   }
   return out;
 }
 
 std::string predictions_from_csv(const std::filesystem::path& file, Fit& fit) {
   Split& split = fit.split;
-  std::vector<double> predicted;
+  std::vector<double> predicted, turns;
   const auto take = [&](const Table& table) {
     const Column& set = column(table, "set");
     const Column& fold = column(table, "fold");
     const std::array axes{&column(table, "px"), &column(table, "py"), &column(table, "pz")};
+    std::vector<const Column*> about;
+    for (const char* name : {"turn_x", "turn_y", "turn_z"})
+      if (const Column* turn = table.find(name)) about.push_back(turn);
     for (std::size_t i = 0; i < set.text.size(); ++i) {
       split.fold.push_back(static_cast<int>(fold.values[i]));
       split.used.push_back(set.text[i] != "ignore");
       split.held.push_back(set.text[i] == "held" && split.fold.back() < 0);
       for (const Column* axis : axes) predicted.push_back(axis->values[i]);
+      for (const Column* axis : about) turns.push_back(axis->values[i]);
     }
   };
   split.fold.clear(), split.used.clear(), split.held.clear();
   std::string sum = read_blocks(file, take);
   fit.predicted_M =
       Eigen::Map<const Rows3>(predicted.data(), static_cast<Eigen::Index>(split.fold.size()), 3);
+  fit.turned_G =
+      Eigen::Map<const Rows3>(turns.data(), static_cast<Eigen::Index>(turns.size()) / 3, 3);
   return sum;
 }
 

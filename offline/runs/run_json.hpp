@@ -21,7 +21,8 @@ nlohmann::ordered_json floor_to_json(const NoiseFloor& floor);
 /// Reads noise_floor.json. Throws as `run_from_json`, or Failure (kInput) if the schema is another.
 NoiseFloor floor_from_json(const nlohmann::ordered_json& j);
 
-/// predictions.csv: pose, set, fold, predicted point, and in `note` the digest of the reading.
+/// predictions.csv: pose, set, fold, predicted point, error of the orientation where it is fitted,
+/// and in `note` the digest of the reading.
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit);
 
 /// Fills split and predictions of `fit` from predictions.csv, and returns the SHA-256 sum of the

@@ -67,26 +67,26 @@ void add_bins(const ErrorProfile& profile, Json& out) {
       row["to" + suffix] = in_unit(bin.to, profile.unit);
     }
     row["n"] = bin.n;
-    put(row, "mean_mm", bin.n > 0 ? to_mm(bin.mean_m) : NAN, "no pose lies here");
+    put(row, "mean_mm", bin.n > 0 ? to_mm(bin.mean) : NAN, "no pose lies here");
     row["n_fit"] = bin.fit_n;
-    put(row, "mean_fit_mm", bin.fit_n > 0 ? to_mm(bin.fit_mean_m) : NAN, "no fit pose lies here");
+    put(row, "mean_fit_mm", bin.fit_n > 0 ? to_mm(bin.fit_mean) : NAN, "no fit pose lies here");
     out.push_back(std::move(row));
   }
 }
 
-Json profiles_json(const Comparison& comparison) {
+Json profiles_json(const std::vector<ErrorProfile>& profiles) {
   Json out;
   for (const auto kind : {Kind::kJoint, Kind::kRegion, Kind::kLoad, Kind::kContext, Kind::kOrder})
     out[key_of(kind)] = Json::array();
-  for (const auto& profile : comparison.profiles)
+  for (const auto& profile : profiles)
     if (profile.kind == Kind::kSetup) out[key_of(Kind::kSetup)] = Json::array();
-  for (const auto& profile : comparison.profiles) add_bins(profile, out[key_of(profile.kind)]);
+  for (const auto& profile : profiles) add_bins(profile, out[key_of(profile.kind)]);
   return out;
 }
 
-Json matters_json(const Comparison& comparison) {
+Json matters_json(const std::vector<ErrorProfile>& profiles) {
   Json out = Json::array();
-  for (const auto& profile : comparison.profiles)
+  for (const auto& profile : profiles)
     if (profile.bins.size() > 1)
       out.push_back({{"by", key_of(profile.kind)},
                      {"quantity", profile.name},
@@ -96,15 +96,29 @@ Json matters_json(const Comparison& comparison) {
   return out;
 }
 
-Json joint_shares_json(const Cell& cell, const Comparison& comparison) {
+Json joint_shares_json(const Cell& cell, const std::vector<compare::JointShare>& shares) {
   Json out = Json::array();
-  for (const auto& share : comparison.joints)
+  for (const auto& share : shares)
     out.push_back({{"joint", cell.nominal.joints[share.joint].name},
                    {"share_pct", 100.0 * share.share},
                    {"rms_urad", share.rms_rad * 1e6},
                    {"bins", share.bins},
                    {"ln_p", share.ln_p},
                    {"matters", share.matters}});
+  return out;
+}
+
+Json turns_json(const Cell& cell, const compare::Turns& turns) {
+  Json out{{"text", dependence_words(turns.profiles, "The orientation error")},
+           {"joints_text", turning_joint_words(cell, turns)},
+           {"worst", Json::array()}};
+  for (std::size_t i = 0; i < std::min(kWorst, turns.poses.size()); ++i) {
+    const auto& pose = turns.poses[i];
+    out["worst"].push_back(
+        {{"pose", pose.pose}, {"row", pose.row + 1}, {"error_deg", to_deg(pose.error_rad)}});
+  }
+  out["matters"] = matters_json(turns.profiles);
+  out["joints"] = joint_shares_json(cell, turns.joints);
   return out;
 }
 
@@ -205,9 +219,12 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   add_verdict(cell, fit, answers, out);
   out["worst"] = worst_json(comparison);
   out["where"] = answers.where;
-  out["by"] = profiles_json(comparison);
-  out["matters"] = matters_json(comparison);
-  out["joints"] = joint_shares_json(cell, comparison);
+  out["by"] = profiles_json(comparison.profiles);
+  out["matters"] = matters_json(comparison.profiles);
+  add_turns(fit, out);
+  if (!comparison.turns.poses.empty())
+    out["orientation_errors"] = turns_json(cell, comparison.turns);
+  out["joints"] = joint_shares_json(cell, comparison.joints);
   out["joints_text"] = joint_words(cell, comparison);
   out["lack_of_fit"] = lack_of_fit_json(comparison.lack_of_fit, fit);
   out["autocorrelation"] = order_json(comparison.order);

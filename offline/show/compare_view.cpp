@@ -20,7 +20,7 @@ namespace {
 using compare::Comparison;
 using compare::ErrorProfile;
 
-constexpr std::size_t kWorstListed = 10;
+constexpr std::size_t kWorstListed = 10, kWorstOrientations = 5;
 constexpr std::size_t kProfilesShown = 4;
 constexpr int kBarWidth = 18;
 
@@ -52,25 +52,35 @@ std::string range_text(const ErrorProfile& profile, const compare::ErrorBin& bin
                      in_unit(bin.to, profile.unit), digits);
 }
 
-Table profile_table(const ErrorProfile& profile, Comparison::Set set) {
+/// What the errors of a profile are of.
+struct ErrorOf {
+  const char* caption;
+  std::string (*text)(double si);
+};
+std::string degrees(double rad) { return fmt::format("{:.4f}", to_deg(rad)); }
+constexpr ErrorOf kOfPosition{"Mean error [mm] by ", mm};
+constexpr ErrorOf kOfOrientation{"Mean orientation error [deg] by ", degrees};
+
+Table profile_table(const ErrorProfile& profile, Comparison::Set set,
+                    const ErrorOf& of = kOfPosition) {
   double most = 0.0;
-  for (const auto& bin : profile.bins) most = std::max(most, bin.mean_m);
+  for (const auto& bin : profile.bins) most = std::max(most, bin.mean);
   const bool held = set == Comparison::Set::kHeldOut;
   std::vector<std::string> header{title(profile), held ? "held-out" : "fit", "mean", ""};
   if (held) header.insert(header.end() - 1, {"fit", "mean"});
   Table table{.name = "profile",
-              .caption = "Mean error [mm] by " + title(profile),
+              .caption = of.caption + title(profile),
               .goes_on = true,
               .head = header,
               .left_from = header.size() - 1};
-  const auto mean = [](int n, double value) { return n > 0 ? mm(value) : "-"; };
+  const auto mean = [&](int n, double value) { return n > 0 ? of.text(value) : "-"; };
   for (const auto& bin : profile.bins) {
-    const int bar = most > 0 ? static_cast<int>(std::lround(bin.mean_m / most * kBarWidth)) : 0;
+    const int bar = most > 0 ? static_cast<int>(std::lround(bin.mean / most * kBarWidth)) : 0;
     std::vector<std::string> row{range_text(profile, bin), fmt::format("{}", bin.n),
-                                 mean(bin.n, bin.mean_m)};
+                                 mean(bin.n, bin.mean)};
     if (held) {
       row.push_back(fmt::format("{}", bin.fit_n));
-      row.push_back(mean(bin.fit_n, bin.fit_mean_m));
+      row.push_back(mean(bin.fit_n, bin.fit_mean));
     }
     row.emplace_back(static_cast<std::size_t>(bar), '#');
     table.add(std::move(row));
@@ -79,9 +89,9 @@ Table profile_table(const ErrorProfile& profile, Comparison::Set set) {
 }
 
 /// The profiles that matter, the strongest first.
-std::vector<const ErrorProfile*> chosen_profiles(const Comparison& comparison) {
+std::vector<const ErrorProfile*> chosen_profiles(const std::vector<ErrorProfile>& profiles) {
   std::vector<const ErrorProfile*> chosen;
-  for (const auto& profile : comparison.profiles)
+  for (const auto& profile : profiles)
     if (profile.matters && profile.kind != ErrorProfile::Kind::kSetup) chosen.push_back(&profile);
   std::stable_sort(chosen.begin(), chosen.end(),
                    [](auto* a, auto* b) { return a->ln_p < b->ln_p; });
@@ -102,6 +112,30 @@ Blocks setups_blocks(const Comparison& comparison) {
     return {std::move(table)};
   }
   return {};
+}
+
+/// Where orientations fail.
+Blocks turn_blocks(const Cell& cell, const Comparison& comparison) {
+  const auto& turns = comparison.turns;
+  if (turns.poses.empty()) return {};
+  Table worst{.name = "worst_orientations",
+              .caption = "Orientations that are missed most [deg]",
+              .captioned = true,
+              .head = {"pose", "orientation error"}};
+  for (std::size_t i = 0; i < std::min(kWorstOrientations, turns.poses.size()); ++i)
+    worst.add({turns.poses[i].pose, degrees(turns.poses[i].error_rad)});
+  Blocks out;
+  for (auto& words : {turning_joint_words(cell, turns),
+                      dependence_words(turns.profiles, "The orientation error")})
+    if (!words.empty()) out.emplace_back(Sentence{words});
+  if (out.empty())
+    out.emplace_back(Sentence{"Nothing explains the orientation error beyond chance."});
+  out.emplace_back(Figure{"orientations"});
+  out.emplace_back(std::move(worst));
+  const auto chosen = chosen_profiles(turns.profiles);
+  if (!chosen.empty())
+    out.emplace_back(profile_table(*chosen.front(), comparison.set, kOfOrientation));
+  return out;
 }
 
 }  // namespace
@@ -158,17 +192,18 @@ Blocks pattern_blocks(const Cell& cell, const Measurements& measured, const Comp
   return out;
 }
 
-Blocks where_blocks(const Comparison& comparison, const Answers& answers) {
+Blocks where_blocks(const Cell& cell, const Comparison& comparison, const Answers& answers) {
   Blocks out{Sentence{answers.where}, Figure{"error-map"}};
-  if (const std::string words = dependence_words(comparison); !words.empty())
+  if (const auto words = dependence_words(comparison.profiles, "The error"); !words.empty())
     out.emplace_back(Sentence{words});
-  const auto chosen = chosen_profiles(comparison);
+  const auto chosen = chosen_profiles(comparison.profiles);
   if (!chosen.empty())
     out.emplace_back(Sentence{comparison.set == Comparison::Set::kHeldOut
                                   ? "Number of readings and their mean error [mm], of the held-out "
                                     "ones and of the fitted:"
                                   : "Number of readings and their mean error [mm]:"});
   for (const auto* profile : chosen) out.emplace_back(profile_table(*profile, comparison.set));
+  append(out, turn_blocks(cell, comparison));
   return out;
 }
 
@@ -179,7 +214,7 @@ Blocks compare_blocks(const Cell& cell, const Measurements& measured, const Comp
   append(out, tolerance_blocks(cell, measured, comparison, run.fit));
   append(out, pattern_blocks(cell, measured, comparison, run.fit));
   out.emplace_back(worst_table(comparison));
-  append(out, where_blocks(comparison, answers));
+  append(out, where_blocks(cell, comparison, answers));
   return out;
 }
 

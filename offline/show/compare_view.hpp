@@ -34,7 +34,8 @@ Blocks pattern_blocks(const Cell& cell, const Measurements& measured,
                       const compare::Comparison& comparison, const Fit& fit);
 
 /// Where the error is large, and how it changes with what matters.
-Blocks where_blocks(const compare::Comparison& comparison, const Answers& answers);
+Blocks where_blocks(const Cell& cell, const compare::Comparison& comparison,
+                    const Answers& answers);
 
 /// The ten readings with the largest errors, in the order of `comparison.poses`.
 Table worst_table(const compare::Comparison& comparison);

@@ -152,28 +152,52 @@ std::string order_words(const compare::Autocorrelation& found) {
       size);
 }
 
-std::string joint_words(const Cell& cell, const compare::Comparison& found) {
+namespace {
+
+/// Which joints explain a squared error; empty if none does.
+std::string shares_words(const Cell& cell, const std::vector<compare::JointShare>& shares,
+                         const char* error) {
   const compare::JointShare* best = nullptr;
-  for (const auto& share : found.joints)
+  for (const auto& share : shares)
     if (share.matters && (best == nullptr || share.share > best->share)) best = &share;
-  if (best == nullptr) return "Joints: no joint's own angle explains the error.";
+  if (best == nullptr) return "";
   std::string others;
-  for (const auto& share : found.joints)
+  for (const auto& share : shares)
     if (share.matters && &share != best && share.share > 0.02)
       others +=
           fmt::format(", {} {:.0f} %", cell.nominal.joints[share.joint].name, 100.0 * share.share);
   return fmt::format(
-      "Joints: {} matters most; an error of its angle that depends on the angle, {:.0f} urad RMS, "
-      "would explain {:.0f} % of the squared error{}.",
-      cell.nominal.joints[best->joint].name, best->rms_rad * 1e6, 100.0 * best->share, others);
+      "{} matters most; an error of its angle that depends on the angle, {:.0f} urad RMS, would "
+      "explain {:.0f} % of the squared {}{}.",
+      cell.nominal.joints[best->joint].name, best->rms_rad * 1e6, 100.0 * best->share, error,
+      others);
 }
 
-std::string dependence_words(const compare::Comparison& found) {
+}  // namespace
+
+std::string joint_words(const Cell& cell, const compare::Comparison& found) {
+  const auto words = shares_words(cell, found.joints, "error");
+  return "Joints: " + (words.empty() ? "no joint's own angle explains the error." : words);
+}
+
+std::string turning_joint_words(const Cell& cell, const compare::Turns& found) {
+  std::string out;
+  if (found.axis)
+    out = fmt::format(
+        "Orientation: the tool is turned about the axis of {}, by {:.0f} % of the squared error.",
+        cell.nominal.joints[static_cast<std::size_t>(found.axis->joint)].name,
+        100.0 * found.axis->share);
+  const auto words = shares_words(cell, found.joints, "orientation error");
+  if (!words.empty()) out += (out.empty() ? "Orientation: " : " ") + words;
+  return out;
+}
+
+std::string dependence_words(const std::vector<ErrorProfile>& profiles, const char* error) {
   const ErrorProfile* best = nullptr;
-  for (const auto& p : found.profiles)
+  for (const auto& p : profiles)
     if (p.matters && (best == nullptr || p.ln_p < best->ln_p)) best = &p;
   if (best == nullptr) return "";
-  return fmt::format("The error changes most with {}; it explains {:.0f} % of the differences.",
+  return fmt::format("{} changes most with {}; it explains {:.0f} % of the differences.", error,
                      quantity_words(*best), 100.0 * best->explained);
 }
 

@@ -17,8 +17,12 @@ std::string lack_of_fit_words(const compare::LackOfFit& found, const Fit& fit);
 
 std::string order_words(const compare::Autocorrelation& found);
 std::string joint_words(const Cell& cell, const compare::Comparison& found);
-/// What the error changes with most; empty if nothing changes it beyond chance.
-std::string dependence_words(const compare::Comparison& found);
+/// About which joint's axis orientations are off, and whether its angle explains it; empty if about
+/// none.
+std::string turning_joint_words(const Cell& cell, const compare::Turns& found);
+/// What an error, "the error" or "the orientation error", changes with most; empty if nothing
+/// changes it beyond chance.
+std::string dependence_words(const std::vector<compare::ErrorProfile>& profiles, const char* error);
 std::string changes_words(const Changes& found);
 std::string step_words(const Cell& cell, const Measurements& measured, const StepFound& step);
 std::string drift_words(const Cell& cell, const Measurements& measured, const DriftFound& drift);

@@ -9,6 +9,7 @@
 
 #include "effects/registry.hpp"
 #include "fit/verdict.hpp"
+#include "noise/orientation_floor.hpp"
 #include "program/counted_words.hpp"
 #include "recheck/constants.hpp"
 #include "show/heads.hpp"
@@ -85,6 +86,18 @@ std::string true_sentence(const Cell& cell, const Recheck& found, const Run& run
       run.number, poses_words(found), mm(found.before.mean), mm(found.expected_m));
 }
 
+/// What orientations show that positions do not.
+std::string turned_words(const recheck::TurnCheck& turns) {
+  if (turns.is_constant)
+    return fmt::format(
+        "the reflector or the last joint turned by {}, which only the measured orientations show",
+        angle_words(turns.constant_rad));
+  return fmt::format(
+      "something turns the tool, orientations are missed by {} where the calibration missed them "
+      "by {}",
+      angle_words(turns.now.mean), angle_words(turns.then.mean));
+}
+
 std::string changed_sentence(const Cell& cell, const Recheck& found, const Run& run) {
   std::vector<std::string> parts;
   for (const auto& one : found.found) parts.push_back(what_happened(cell, one));
@@ -94,6 +107,7 @@ std::string changed_sentence(const Cell& cell, const Recheck& found, const Run& 
                                       "{:.1f} times what is expected",
                                       found.excess)
                         : "and something else, which no single part explains");
+  if (found.turns.turned()) parts.push_back(turned_words(found.turns));
   std::string out = fmt::format("Changed since run {}: {}. Mean error {} mm", run.number,
                                 fmt::join(parts, "; "), mm(found.before.mean));
   return out + (found.found.empty()
@@ -146,6 +160,21 @@ Table recheck_errors_table(const Recheck& found, const Run& run) {
   row(fmt::format("held-out, run {} when it was made", run.number), found.then);
   row(fmt::format("now, by run {} as it is", run.number), found.before);
   if (!found.found.empty()) row("now, refitted without the reading", found.after);
+  return table;
+}
+
+Table turns_table(const recheck::TurnCheck& turns, const Run& run) {
+  Table table{
+      .name = "orientations",
+      .caption = "Orientation errors, measured - predicted [deg]",
+      .head = {"orientation error [deg]", head::kReadings, head::kMean, head::kP95, head::kMax}};
+  if (!turns.judged()) return table;
+  const auto row = [&](const std::string& name, const ErrorStats& s) {
+    const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
+    table.add({name, fmt::format("{}", s.n), deg(s.mean), deg(s.p95), deg(s.max)});
+  };
+  row(fmt::format("held-out, run {} when it was made", run.number), turns.then);
+  row("now, after what was found", turns.now);
   return table;
 }
 
@@ -292,6 +321,11 @@ Json recheck_json(const Cell& cell, const Recheck& found, const Run& run) {
   out["before"] = stats_json(found.before);
   out["after"] = stats_json(found.after);
   put(out, "expected_mean_mm", to_mm(found.expected_m));
+  if (found.turns.judged())
+    out["orientation"] = {{"then_mean_deg", to_deg(found.turns.then.mean)},
+                          {"mean_deg", to_deg(found.turns.now.mean)},
+                          {"turned", found.turns.turned()},
+                          {"is_constant", found.turns.is_constant}};
   out["odd_readings"] = Json::array();
   for (const int row : found.odd_readings) out["odd_readings"].push_back(row + 1);
   out["not_shown"] = visible_json(cell, found.blind);
@@ -302,7 +336,8 @@ Json recheck_json(const Cell& cell, const Recheck& found, const Run& run) {
 
 Blocks recheck_blocks(const Cell& cell, const Recheck& found, const Run& run) {
   Blocks out{Sentence{recheck_sentence(cell, found, run), class_of(cell, found)},
-             recheck_errors_table(found, run), changed_numbers_table(found)};
+             recheck_errors_table(found, run), turns_table(found.turns, run),
+             changed_numbers_table(found)};
   for (const auto& one : found.found)
     if (const auto open = open_words(cell, one);
         !open.empty() && found.verdict == Recheck::Verdict::kChanged)

@@ -14,7 +14,7 @@ std::vector<Sample> samples(tests::Random& random, int n, double slope) {
   std::vector<Sample> out;
   for (int i = 0; i < n; ++i) {
     const double x = random.uniform(-1.0, 1.0);
-    out.push_back({.value = x, .error_m = 1e-4 * (1.0 + slope * x * x) + 1e-5 * normal(random)});
+    out.push_back({.value = x, .error = 1e-4 * (1.0 + slope * x * x) + 1e-5 * normal(random)});
   }
   return out;
 }
@@ -24,15 +24,15 @@ TEST(Profile, EveryPoseCountsOnceAndTheMeanIsKept) {
   auto all = samples(random, 500, 2.0);
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].set = i % 3 == 0 ? Sample::Set::kJudged : Sample::Set::kFitted;
-    all[i].fit_error_m = 2.0 * all[i].error_m;
+    all[i].fit_error = 2.0 * all[i].error;
   }
   double judged = 0.0, fitted = 0.0, judged_binned = 0.0, fitted_binned = 0.0;
-  for (const auto& s : all) (s.set == Sample::Set::kJudged ? judged : fitted) += s.error_m;
+  for (const auto& s : all) (s.set == Sample::Set::kJudged ? judged : fitted) += s.error;
   int n = 0;
   for (const auto& bin : profile({}, all).bins) {
     n += bin.n + bin.fit_n;
-    judged_binned += bin.n * bin.mean_m;
-    fitted_binned += bin.fit_n * bin.fit_mean_m / 2.0;
+    judged_binned += bin.n * bin.mean;
+    fitted_binned += bin.fit_n * bin.fit_mean / 2.0;
   }
   EXPECT_EQ(n, 500);
   EXPECT_NEAR(judged_binned, judged, 1e-12);
@@ -71,7 +71,7 @@ TEST(Profile, RepeatsOfAPoseAreNoEvidenceAndMissingValuesNoPose) {
       many.push_back(s);
       many.back().repeat = k > 0;
     }
-  many.push_back({.value = NAN, .error_m = 1.0});
+  many.push_back({.value = NAN, .error = 1.0});
   const ErrorProfile once = profile({}, all), often = profile({}, many);
   int n = 0;
   for (const auto& bin : often.bins) n += bin.n;
@@ -83,7 +83,7 @@ TEST(Profile, LabelsMakeABinEach) {
   const ErrorProfile p = profile({}, {{-1.0, 1.0}, {1.0, 3.0}, {1.0, 5.0}}, {-1.0, 1.0});
   ASSERT_EQ(p.bins.size(), 2U);
   EXPECT_EQ(p.bins[0].n, 1);
-  EXPECT_DOUBLE_EQ(p.bins[1].mean_m, 4.0);
+  EXPECT_DOUBLE_EQ(p.bins[1].mean, 4.0);
 }
 
 TEST(JointShares, NameTheJointWhoseOwnAngleIsBehindItAndItsSize) {
