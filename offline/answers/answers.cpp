@@ -22,7 +22,7 @@ bool is_limited(Quality quality) {
 Class class_of(const Fit& fit, double tolerance_m) {
   switch (grade(fit, tolerance_m)) {
     case Grade::kGood:
-      return fit.size_unknown ? Class::kGoodBut : Class::kGood;
+      return Class::kGood;
     case Grade::kPartly:
       return is_limited(quality(fit, tolerance_m)) ? Class::kLimited : Class::kGoodBut;
     case Grade::kUnknown:

@@ -118,7 +118,7 @@ std::string artefact_prefix(const MeasurementSettings& settings, int setup) {
 std::vector<Parameter> artefact_parameters(const MeasurementSettings& settings, int setup) {
   const Setup& rule = settings.setups[static_cast<std::size_t>(setup)];
   const std::string prefix = artefact_prefix(settings, setup);
-  const bool plane = rule.reads == ReadingKind::kPlane || rule.reads == ReadingKind::kHeight;
+  const bool plane = is_of_plane(rule.reads);
   std::vector<Parameter> out;
   for (int k = 0; k < 3; ++k)
     out.push_back(

@@ -611,6 +611,11 @@ constexpr Explanation kCodes[] = {
      "A distance between two touched points that the columns to_point and distance_mm state lies "
      "more than three of its standard deviations from what the fit found, which took it into "
      "account: it is wrong, in another unit, or a point moved half-way."},
+    {"W-FIT-SCALE",
+     "Lengths of an arm are built wrong one by one, some longer and some shorter. Here all of them "
+     "grew or shrank by one factor. A tracker at another temperature, inches for millimetres in a "
+     "stated length, or the nominal table of an arm of another size do that, and no residual shows "
+     "it: the corrected robot is then wrong by this factor."},
     {"W-FIT-UNIT",
      "Distances from a fixed anchor tell the size of the arm. These fit the nominal one only if "
      "all "

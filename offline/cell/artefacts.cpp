@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -27,6 +28,11 @@ constexpr double kFarthest_m = 100.0;
 
 std::string with_article(const std::string& noun) {
   return (noun.front() == 'a' ? "an " : "a ") + noun;
+}
+
+std::string in_small_letters(std::string label) {
+  for (char& c : label) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return label;
 }
 
 bool all_different(const Column& labels) {
@@ -123,6 +129,17 @@ class ArtefactList {
                     "delete the column, or name in another one what it is about");
   }
 
+  /// One artefact has one spelling.
+  void check_spelling(const Table& table, int row, const Column& label) {
+    const std::string& name = label.text[row];
+    const auto [first, is_new] = spelt_.emplace(in_small_letters(name), name);
+    if (is_new) return;
+    problems_.error(
+        kPointCode, fmt::format("'{}' here is '{}' in a row before", name, first->second),
+        place_in_row(table, row, label, "differs in capital letters only"),
+        fmt::format("write one label for one {}, or labels that differ clearly", noun()));
+  }
+
   /// One artefact stands in one place.
   void check_position(const Table& table, int row, const Column* position, const Setup& setup) {
     if (position == nullptr || position->text[row] == setup.position) return;
@@ -137,6 +154,7 @@ class ArtefactList {
     const std::string& name = label.text[row];
     if (name.empty()) return;
     const auto [at, is_new] = index_.emplace(name, static_cast<int>(m_.setups.size()));
+    if (is_new) check_spelling(table, row, label);
     if (is_new) add(table, name, position == nullptr ? "" : position->text[row]);
     Setup& setup = m_.setups[static_cast<std::size_t>(at->second)];
     check_position(table, row, position, setup);
@@ -241,6 +259,7 @@ class ArtefactList {
   ProblemList& problems_;
   ReadingKind kind_ = ReadingKind::kPosition;  // of the table that is read
   std::map<std::string, int> index_;
+  std::map<std::string, std::string> spelt_;  // by the label in small letters
   std::map<std::pair<int, int>, double> lengths_;
   int first_ = -1;
 };
@@ -298,9 +317,8 @@ namespace {
 
 /// Whether so many readings of an artefact tell no more than where it is.
 bool says_nothing(const Setup& setup, const Measurements& measured, const std::vector<int>& rows) {
-  const ReadingDescriptor& kind = descriptor_of(setup.reads);
   return measured.axes(rows.front()) * static_cast<int>(rows.size()) <=
-         kind.numbers + (setup.fit_length ? 1 : 0);
+         kNumbersOfArtefact + (setup.fit_length ? 1 : 0);
 }
 
 void ignore_few_readings(const MeasurementSettings& m, MeasurementFiles& measured) {

@@ -6,16 +6,15 @@ namespace {
 
 constexpr std::array kAll{
     ReadingDescriptor{
-        ReadingKind::kPosition, nullptr, nullptr, {true, true, true}, false, 0, "set-up"},
-    ReadingDescriptor{ReadingKind::kPoint, "point", nullptr, {true, true, true}, false, 3, "point"},
+        ReadingKind::kPosition, nullptr, nullptr, {true, true, true}, false, "set-up"},
+    ReadingDescriptor{ReadingKind::kPoint, "point", nullptr, {true, true, true}, false, "point"},
+    ReadingDescriptor{ReadingKind::kPlane, "plane", nullptr, {false, false, true}, false, "plane"},
     ReadingDescriptor{
-        ReadingKind::kPlane, "plane", nullptr, {false, false, true}, false, 3, "plane"},
+        ReadingKind::kHeight, "plane", "height", {false, false, true}, false, "plane"},
     ReadingDescriptor{
-        ReadingKind::kHeight, "plane", "height", {false, false, true}, false, 3, "plane"},
+        ReadingKind::kSphere, "sphere", nullptr, {true, false, false}, true, "sphere"},
     ReadingDescriptor{
-        ReadingKind::kSphere, "sphere", nullptr, {true, false, false}, true, 3, "sphere"},
-    ReadingDescriptor{
-        ReadingKind::kDistance, "anchor", "distance", {true, false, false}, true, 3, "anchor"},
+        ReadingKind::kDistance, "anchor", "distance", {true, false, false}, true, "anchor"},
 };
 
 }  // namespace

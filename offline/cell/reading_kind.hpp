@@ -29,9 +29,12 @@ struct ReadingDescriptor {
   const char* value;          // column with what was read there; null: nothing but the joints
   std::array<bool, 3> reads;  // which coordinates in that frame
   bool radial;                // how far from the origin of that frame, less a length
-  int numbers;                // unknown ones of an artefact, a length not counted
   const char* noun;           // of an artefact in a message, "plane"
 };
+
+/// Unknown numbers of an artefact, a length not counted: a point or a centre has three coordinates,
+/// a plane a height and two tilts.
+inline constexpr int kNumbersOfArtefact = 3;
 
 /// All kinds with an artefact. Where an artefact is touched or read, the kind without a value
 /// stands first.
@@ -39,6 +42,11 @@ std::span<const ReadingDescriptor> artefact_readings();
 
 /// Of any kind. The axes of positions are those of Measurements::has_axis.
 const ReadingDescriptor& descriptor_of(ReadingKind kind);
+
+/// Whether it is about a plane: its frame is known but for turns about its normal and shifts in it.
+inline bool is_of_plane(ReadingKind kind) {
+  return kind == ReadingKind::kPlane || kind == ReadingKind::kHeight;
+}
 
 /// Whether the only thing read is that the target touches the artefact: what scatters then is where
 /// the arm says that it is (touch_density.hpp).

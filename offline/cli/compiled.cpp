@@ -18,6 +18,8 @@
 namespace plumb::offline::cli {
 namespace {
 
+constexpr const char* kSizeUnknown = "nothing that was read tells the size of the arm";
+
 /// Why the held-out figure of a model does not keep the tolerance; empty if it does.
 std::string beyond_tolerance(const Compiled& made, double tolerance_m) {
   const ErrorStats& held = made.held;
@@ -139,7 +141,8 @@ Compiled compiled(Cell& cell, const CompileOptions& options, const WriteOptions&
                .refit_all = options.refit_all,
                .folds = run.recheck ? 0 : run.fit.split.folds,
                .held = usual_held(run.fit),
-               .without = without_words(run.fit)};
+               .without = without_words(run.fit),
+               .size_unknown = run.fit.size_unknown};
   if (!options.gate) warn_of_tolerance(out, cell.tolerance_m, outcome);
   return out;
 }
@@ -154,6 +157,7 @@ void check_gate(const Audit& audit, const Compiled& made, double tolerance_m, Ou
   for (const auto& remark : audit.remarks)
     if (remark.severity == Severity::kWarning) fail(remark.message);
   if (const std::string why = beyond_tolerance(made, tolerance_m); !why.empty()) fail(why);
+  if (made.size_unknown) fail(kSizeUnknown);
 }
 
 std::string compiled_headline(const Compiled& made, double tolerance_m) {
@@ -174,7 +178,11 @@ std::string compiled_headline(const Compiled& made, double tolerance_m) {
                      model.serial.find_first_not_of(" \t") == std::string::npos
                          ? "no serial number"
                          : "serial " + model.serial,
-                     error, beyond.empty() ? "" : " Not good enough: " + beyond + ".", whose);
+                     error,
+                     !beyond.empty()     ? " Not good enough: " + beyond + "."
+                     : made.size_unknown ? fmt::format(" Good in shape only: {}.", kSizeUnknown)
+                                         : "",
+                     whose);
 }
 
 }  // namespace plumb::offline::cli

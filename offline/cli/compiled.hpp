@@ -20,9 +20,10 @@ struct Compiled {
   format::Model model;
   int run = 0;  // 0: it was not kept
   bool refit_all = false;
-  int folds = 0;        // of the held-out figure; 0: one held-out set, or none
-  ErrorStats held;      // that the verdict rests on; the model carries that of all readings
-  std::string without;  // what it leaves out, in words
+  int folds = 0;              // of the held-out figure; 0: one held-out set, or none
+  ErrorStats held;            // that the verdict rests on; the model carries that of all readings
+  std::string without;        // what it leaves out, in words
+  bool size_unknown = false;  // of the arm: the error is that of its shape
 
   /// Adds `run`, or null with its reason, and `refit_all`.
   void put_run(Json& result) const;
@@ -34,7 +35,8 @@ struct Compiled {
 Compiled compiled(Cell& cell, const CompileOptions& options, const WriteOptions& write,
                   Outcome& outcome);
 
-/// What --gate requires: no warning of the audit, and held-out poses that keep the tolerance.
+/// What --gate requires: no warning of the audit, and held-out poses that keep the tolerance
+/// of an arm whose size was measured.
 /// What fails becomes an error of `outcome`, exit kGateFailed.
 void check_gate(const Audit& audit, const Compiled& made, double tolerance_m, Outcome& outcome);
 

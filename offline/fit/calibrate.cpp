@@ -447,7 +447,7 @@ Calibration calibrated_with(const Cell& cell, const CalibrationStart& start, Hel
   const auto& redundant = start.unknown.redundant;
   out.held.insert(out.held.end(), redundant.begin(), redundant.end());
   for (const auto& p : open) out.held.push_back(p.name);
-  warn_of_far_parameters(out.estimates, remarks);
+  warn_of_far_parameters(cell, out, remarks);
   warn_of_impossible_effects(out, remarks);
   out.remarks.insert(out.remarks.begin(), remarks.begin(), remarks.end());
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/fit_cell.hpp"
+#include "fit/common_scale.hpp"
 
 #include <fmt/format.h>
 
@@ -315,25 +316,16 @@ void remark_on_marks(const Cell& cell, Fit& out) {
 }
 
 /// 1 sigma of what the common scale of all lengths of the arm does at its reach [m].
-double sigma_of_size(const Calibration& c) {
-  Eigen::VectorXd along = Eigen::VectorXd::Zero(c.covariance.rows());
-  double squares = 0.0;
-  for (std::size_t i = 0; i < c.estimates.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    if (!c.estimates[i].of_robot || !c.estimates[i].is_length || k >= along.size()) continue;
-    along(k) = c.estimates[i].value;
-    squares += along(k) * along(k);
-  }
-  if (squares == 0.0) return 0.0;
-  const double variance = along.dot(c.covariance * along) / (squares * squares);
-  return std::sqrt(std::max(0.0, variance)) * reach(c.state.arm.calibrated);
+double sigma_of_size(const Cell& cell, const Calibration& c) {
+  const auto scale = common_scale(c, cell.fit.prior_m);
+  return scale ? scale->sigma * reach(c.state.arm.calibrated) : 0.0;
 }
 
 /// Whether readings about artefacts leave the size of the arm open: no length was read, or those
 /// that were read tell it less well than the tolerance.
 bool size_is_unknown(const Cell& cell, const Calibration& c) {
   return lacks_length(cell) ||
-         (has_artefacts(cell.measurement) && sigma_of_size(c) > cell.tolerance_m);
+         (has_artefacts(cell.measurement) && sigma_of_size(cell, c) > cell.tolerance_m);
 }
 
 void remark_on_still_joints(Fit& out) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "arm/effect_binding.hpp"
+#include "fit/common_scale.hpp"
 #include "fit/constants.hpp"
 
 namespace plumb::offline {
@@ -42,9 +43,17 @@ bool ends_far(const std::vector<Estimate>& estimates) {
                      [](const Estimate& e) { return beyond(e, kFar_m, kFar_rad); });
 }
 
-void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks) {
-  for (const auto& e : estimates)
-    if (beyond(e, kFar_m, kFar_rad))
+void warn_of_far_parameters(const Cell& cell, const Calibration& calibration,
+                            std::vector<Problem>& remarks) {
+  const double prior_m = cell.fit.prior_m > 0.0 ? cell.fit.prior_m : kUnsetPrior;
+  auto scale = common_scale(calibration, prior_m);
+  if (scale && !scale->unusual()) scale.reset();
+  if (scale) remarks.push_back(scale_remark(*scale));
+  const auto explained = [&](const Estimate& e) {
+    return scale && e.is_length && std::abs(e.value - e.nominal - scale->change_m(e)) < kFar_m;
+  };
+  for (const auto& e : calibration.estimates)
+    if (beyond(e, kFar_m, kFar_rad) && !explained(e))
       remarks.push_back(
           {.severity = Severity::kWarning,
            .code = "W-FIT-FAR",

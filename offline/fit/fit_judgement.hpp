@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cell/cell.hpp"
 #include "fit/calibration.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 #include "program/problem.hpp"
@@ -19,8 +20,10 @@ void check_same_arm(const std::vector<Estimate>& estimates);
 bool ends_far(const std::vector<Estimate>& estimates);
 
 /// W-FIT-FAR: a parameter of the arm is more than 20 mm or 2 deg from nominal, so that the nominal
-/// value is probably wrong.
-void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks);
+/// value is probably wrong. W-FIT-SCALE: all lengths together are longer or shorter than arms are
+/// built; then lengths that this explains are not said to be far.
+void warn_of_far_parameters(const Cell& cell, const Calibration& calibration,
+                            std::vector<Problem>& remarks);
 
 /// Whether a parameter is within the bounds of its law or less than three sigma outside.
 bool possible(double value, double std, const EffectParameter& info);

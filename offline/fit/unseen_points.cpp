@@ -55,19 +55,16 @@ void place_artefact(const MeasurementSettings& settings, const Measurements& mea
   data.rows = rows;
   data.sigma_m = Rows3::Constant(measured.size(), 3, kUnstatedSigma_m);
   const std::vector<Parameter> own = artefact_parameters(settings, setup);
-  std::optional<Solution> best;
-  const bool length = settings.setups[static_cast<std::size_t>(setup)].fit_length;
-  for (const ArmState& start : artefact_starts(pick(measured, rows), state, setup, length)) {
-    Solution one = solve(data, start, own);
-    if (!best || one.cost < best->cost) best = std::move(one);
-  }
+  Solution best = placed_artefact(data, state, setup,
+                                  settings.setups[static_cast<std::size_t>(setup)].fit_length,
+                                  [&](const ArmState& start) { return solve(data, start, own); });
   // A bad reading counts as an error of its own, and not as one of all others of its artefact.
-  while (const auto worst = far_reading(*best, own.size())) {
+  while (const auto worst = far_reading(best, own.size())) {
     data.rows.erase(data.rows.begin() + *worst);
-    best = solve(data, best->state, own);
+    best = solve(data, best.state, own);
   }
-  state.frame(setup) = best->state.frame(setup);
-  state.length(setup) = best->state.length(setup);
+  state.frame(setup) = best.state.frame(setup);
+  state.length(setup) = best.state.length(setup);
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ Grade grade(const Fit& fit, double tolerance_m) {
       return Grade::kUnknown;
     case Quality::kGood:
     case Quality::kGoodNoiseUnknown:
-      return fit.still.empty() ? Grade::kGood : Grade::kPartly;
+      return fit.still.empty() && !fit.size_unknown ? Grade::kGood : Grade::kPartly;
     case Quality::kRepeatsDisagree:
     case Quality::kSigmaTooLarge:
     case Quality::kGoodNotComplete:

@@ -146,7 +146,7 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   const Fit fit = fit_cell(cell, measured);
   out.held = usual_held(fit);
   out.floor_m = fit.floor.mean_m;
-  out.good = fit.held.n > 0 && keeps(usual_held(fit), cell.tolerance_m);
+  out.good = fit.held.n > 0 && keeps(usual_held(fit), cell.tolerance_m) && !fit.size_unknown;
   out.verdict_head = verdict_head(fit, cell.tolerance_m);
   out.verdict_class = name_of(grade(fit, cell.tolerance_m));
   put_numbers(

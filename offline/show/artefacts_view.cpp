@@ -20,10 +20,6 @@ const std::string& name_of(const MeasurementSettings& m, int setup) {
   return m.setups[static_cast<std::size_t>(setup)].name;
 }
 
-bool is_plane(ReadingKind kind) {
-  return kind == ReadingKind::kPlane || kind == ReadingKind::kHeight;
-}
-
 /// A plane in the base frame: normal * p = offset for every p on it.
 struct PlaneB {
   Vector3 normal;
@@ -61,7 +57,7 @@ void add_points(const Cell& cell, const Calibration& c, Json& out) {
 Json artefact_json(const MeasurementSettings& m, const Calibration& c, int k) {
   const Setup& rule = m.setups[static_cast<std::size_t>(k)];
   Json one{{"name", rule.name}, {"kind", descriptor_of(rule.reads).noun}};
-  if (is_plane(rule.reads)) {
+  if (is_of_plane(rule.reads)) {
     const PlaneB plane = plane_B(c, k);
     one["normal"] = vector_json(plane.normal);
     put(one, "offset_mm", to_mm(plane.offset_m));
@@ -93,7 +89,7 @@ Table planes_table(const MeasurementSettings& m, const Calibration& c) {
               .head = {"plane", "normal x", "y", "z", "from the base [mm]"}};
   const auto share = [](double v) { return fmt::format("{:.6f}", v); };
   for (int k = 0; k < c.state.setups(); ++k) {
-    if (!of_artefact(m, k) || !is_plane(kind_of(m, k))) continue;
+    if (!of_artefact(m, k) || !is_of_plane(kind_of(m, k))) continue;
     const PlaneB plane = plane_B(c, k);
     table.add({name_of(m, k), share(plane.normal(0)), share(plane.normal(1)),
                share(plane.normal(2)), mm(plane.offset_m)});

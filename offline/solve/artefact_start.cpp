@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "arm/predicted_points.hpp"
 
@@ -75,16 +77,22 @@ ArmState centre(const Measurements& measured, const Rows3& points, const ArmStat
 
 std::vector<ArmState> artefact_starts(const Measurements& measured, const ArmState& state,
                                       int setup, bool fit_length) {
-  switch (measured.kind_of(0)) {
-    case ReadingKind::kPlane:
-    case ReadingKind::kHeight:
-      return planes(measured, targets_B(measured, state, setup), state, setup);
-    case ReadingKind::kSphere:
-    case ReadingKind::kDistance:
-      return {centre(measured, targets_B(measured, state, setup), state, setup, fit_length)};
-    default:
-      return {state};
+  const ReadingKind kind = measured.kind_of(0);
+  if (is_of_plane(kind)) return planes(measured, targets_B(measured, state, setup), state, setup);
+  if (descriptor_of(kind).radial)
+    return {centre(measured, targets_B(measured, state, setup), state, setup, fit_length)};
+  return {state};
+}
+
+Solution placed_artefact(const FitData& data, const ArmState& state, int setup, bool fit_length,
+                         const std::function<Solution(const ArmState& start)>& fit) {
+  std::optional<Solution> best;
+  const Measurements some = pick(*data.measured, data.rows);
+  for (const ArmState& start : artefact_starts(some, state, setup, fit_length)) {
+    Solution one = fit(start);
+    if (!best || one.cost < best->cost) best = std::move(one);
   }
+  return *std::move(best);
 }
 
 }  // namespace plumb::offline

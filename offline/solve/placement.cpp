@@ -137,25 +137,13 @@ void keep_likely(std::vector<Solution>& found) {
   if (found.size() > kMostPlacements) found.resize(kMostPlacements);
 }
 
-/// The artefact of one set-up, to which all rows of `data` belong, from the likeliest start. What
-/// is left of a wrong one is far larger, so that no second placement is kept.
-Solution placed_artefact(const FitData& data, const ArmState& nominal,
-                         const std::vector<Parameter>& placing, int setup) {
-  const Measurements some = pick(*data.measured, data.rows);
-  std::optional<Solution> best;
-  for (const ArmState& start :
-       artefact_starts(some, nominal, setup, has_kind(placing, Parameter::Kind::kArtefactLength))) {
-    Solution one = place_from(data, start, placing, setup);
-    if (!best || one.cost < best->cost) best = std::move(one);
-  }
-  return *best;
-}
-
 /// The placements of one set-up, to which all rows of `data` belong.
 std::vector<Solution> placements_of(const FitData& data, const ArmState& nominal,
                                     const std::vector<Parameter>& placing, int setup) {
   if (has_kind(placing, Parameter::Kind::kPlane) || has_kind(placing, Parameter::Kind::kPoint))
-    return {placed_artefact(data, nominal, placing, setup)};
+    return {placed_artefact(
+        data, nominal, setup, has_kind(placing, Parameter::Kind::kArtefactLength),
+        [&](const ArmState& start) { return place_from(data, start, placing, setup); })};
   if (!has_kind(placing, Parameter::Kind::kFrame))
     return {place_from(data, nominal, placing, setup)};
   const FitData thin = fewer(data, kStartPoses);

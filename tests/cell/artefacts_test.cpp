@@ -83,6 +83,7 @@ TEST_F(TouchedRows, KnownDistancesAreListedOnce) {
 
 TEST_F(TouchedRows, WhatContradictsIsRefusedWithItsPlace) {
   EXPECT_EQ(errors("q1_deg,point\n1,A\n2,A\n3,\n"), Summary{"E-CSV-POINT 4:3"});
+  EXPECT_EQ(errors("q1_deg,point\n1,A\n2,A\n3,a\n4,a\n"), Summary{"E-CSV-POINT 4:3"});
   const std::string known = "q1_deg,point,to_point,distance_mm\n1,A,B,50\n2,B,A,";
   EXPECT_EQ(errors(known + "51\n3,A,,1\n"), Summary{"E-CSV-POINT 3:7"});
   EXPECT_EQ(errors(known + "0\n3,A,,1\n"), Summary{"E-CSV-POINT 3:7"});

@@ -85,6 +85,12 @@ TEST_P(OtherReadings, AreFittedListedComparedDiagnosedAndCompiled) {
     const Ran ran = box.plumb({verb});
     EXPECT_EQ(ran.exit, 0) << verb << "\n" << ran.out << ran.err;
   }
+  if (!length) {
+    const Ran gate = box.plumb({"compile", "--gate", "--force"});
+    EXPECT_EQ(gate.exit, 1) << gate.err;
+    EXPECT_NE(gate.err.find("nothing that was read tells the size of the arm"), std::string::npos)
+        << gate.err;
+  }
   for (const char* how : {"--n=5", "--recheck", "--separate=joint_compliance,link_flexure"}) {
     const Ran plan = box.plumb({"plan", how});
     EXPECT_EQ(plan.exit, 3) << how;

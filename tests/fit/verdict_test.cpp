@@ -188,6 +188,7 @@ TEST(Verdict, AnArmWhoseSizeNothingTellsIsGoodInItsShapeOnly) {
   Fit fit = fit_with(stats(16e-6, 30e-6, 40e-6), 16e-6);
   fit.size_unknown = true;
   EXPECT_EQ(beginning(fit), "Good in shape, of unknown size");
+  EXPECT_EQ(grade(fit, kTolerance_m), Grade::kPartly);
 }
 
 TEST(Verdict, WhatFewPosesLeaveIsNotCalledMissingPhysics) {
