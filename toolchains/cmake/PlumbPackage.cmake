@@ -86,7 +86,7 @@ configuration for CMake and examples.")
 set(CPACK_DEBIAN_LIB_PACKAGE_NAME libplumb0)
 set(CPACK_DEBIAN_LIB_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIB_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # only this package has a shared library
+set(CPACK_DEBIAN_LIB_PACKAGE_CONTROL_EXTRA ${debian}/libplumb0/shlibs ${debian}/libplumb0/triggers)
 set(CPACK_COMPONENT_LIB_DESCRIPTION "correction of robot targets, as a shared library
 The C interface of Plumb (plumb.h of libplumb-dev) for programs that load it
 while they run, such as Python: it loads a compiled model, predicts where the
