@@ -36,7 +36,7 @@ class Writer:
 
     def __init__(self):
         self.shared = {**json_page.load("common")["$defs"], **json_page.load("envelope")["$defs"]}
-        self.made, self.lines = set(), []
+        self.made, self.lines = {}, []  # made: the schema of each class
 
     def union(self, parts):
         parts = list(dict.fromkeys(parts))
@@ -51,7 +51,7 @@ class Writer:
             definition = schema["$ref"].rpartition("/")[2]
             return self.type_of(self.shared[definition], class_name(definition))
         if "anyOf" in schema:
-            return self.union([self.type_of(one, name) for one in schema["anyOf"]])
+            return self.union([self.type_of(one, name + str(at + 1) * (at > 0)) for at, one in enumerate(schema["anyOf"])])
         if "enum" in schema or "const" in schema:
             words = schema.get("enum", [schema.get("const")])
             return f"Literal[{', '.join('None' if word is None else json.dumps(word) for word in words)}]"
@@ -70,8 +70,9 @@ class Writer:
 
     def dataclass(self, schema, required, name, words):
         if name in self.made:
+            assert self.made[name] == schema, f"two classes would be called {name}"
             return name
-        self.made.add(name)
+        self.made[name] = schema
         members = [(key, self.type_of(one, name + class_name(key)), key in required, "" if key.endswith("_reason") else one.get("description", ""))
                    for key, one in schema["properties"].items()]
         body = []

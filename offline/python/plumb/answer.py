@@ -71,12 +71,22 @@ def made(kind: Any, value: Any) -> Any:
 
 
 def _chosen(kinds: tuple[Any, ...], value: Any) -> Any:
-    """Which of a union's types a value is of: all that plumb prints differ in their kind of JSON value."""
-    for kind in kinds:
-        if isinstance(value, dict) and (dataclasses.is_dataclass(kind) or typing.get_origin(kind) is dict):
-            return kind
-        if isinstance(value, list) and typing.get_origin(kind) is list:
-            return kind
-        if kind is type(value) or (kind is float and type(value) is int):
-            return kind
-    return Any
+    """Which of a union's types a value is of: the first that it fits."""
+    return next((kind for kind in kinds if _fits(kind, value)), Any)
+
+
+def _fits(kind: Any, value: Any) -> bool:
+    if dataclasses.is_dataclass(kind):
+        found = {member for name, (member, _) in _members(kind).items() if isinstance(value, dict) and name in value}
+        return isinstance(value, dict) and found >= {field.name for field in dataclasses.fields(kind) if _always(field)}
+    if typing.get_origin(kind) is Union:
+        return any(_fits(one, value) for one in typing.get_args(kind))
+    if typing.get_origin(kind) is list:
+        return isinstance(value, list) and (not value or _fits(typing.get_args(kind)[0], value[0]))
+    if typing.get_origin(kind) is dict:
+        return isinstance(value, dict)
+    return kind is type(value) or (kind is float and type(value) is int)
+
+
+def _always(field: dataclasses.Field[Any]) -> bool:
+    return field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING

@@ -3321,6 +3321,28 @@ class StudyRows:
 
 
 @dataclass(frozen=True)
+class StudyRows2:
+    added: str
+    """Effects that were added."""
+    tree: str
+    """Why there is a tree or none."""
+    before_mm: float
+    """Seen poses without correction [mm]."""
+    published_seen_mm: float
+    """Seen poses with three trees of five leaves [mm]."""
+    noise_seen_mm: float
+    """The same trees on white noise [mm]."""
+    before_fresh_mm: float
+    """Fresh poses without correction [mm]."""
+    published_fresh_mm: float
+    """Fresh poses with three trees of five leaves [mm]."""
+    noise_fresh_mm: float
+    """Fresh poses with the trees of noise [mm]."""
+    ours_fresh_mm: float
+    """Fresh poses after plumb diagnose --apply [mm]."""
+
+
+@dataclass(frozen=True)
 class StudyMedian:
     """Median of all arms."""
 
@@ -3379,7 +3401,7 @@ class Study:
     calibrability_reason: Optional[str] = None
     iterations: Optional[int] = None
     """Iterations."""
-    rows: Optional[list[StudyRows]] = None
+    rows: Optional[Union[list[StudyRows], list[StudyRows2]]] = None
     """Planar: one row a model. Six-axis: one row an arm."""
     diagnosis: Optional[str] = None
     """What plumb diagnose says."""
