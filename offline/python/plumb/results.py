@@ -881,6 +881,85 @@ class CompareMatters:
 
 
 @dataclass(frozen=True)
+class OrientationError:
+    """Error of measured orientations."""
+
+    n: int
+    """How many readings."""
+    mean_deg: Optional[float]
+    """Mean of the orientation error [deg]; null with the reason in mean_deg_reason."""
+    rms_deg: Optional[float]
+    """RMS of the orientation error [deg]; null with the reason in rms_deg_reason."""
+    p95_deg: Optional[float]
+    """95 % of the orientation error [deg]; null with the reason in p95_deg_reason."""
+    max_deg: Optional[float]
+    """Largest of the orientation error [deg]; null with the reason in max_deg_reason."""
+    noise_floor_deg: Optional[float]
+    """Mean orientation error that the noise of the readings alone makes [deg]; null with the reason in noise_floor_deg_reason."""
+    mean_deg_reason: Optional[str] = None
+    rms_deg_reason: Optional[str] = None
+    p95_deg_reason: Optional[str] = None
+    max_deg_reason: Optional[str] = None
+    noise_floor_deg_reason: Optional[str] = None
+
+
+@dataclass(frozen=True)
+class CompareOrientationErrorsWorst:
+    pose: str
+    """Pose."""
+    row: int
+    """Row of the measurements, from 1."""
+    error_deg: float
+    """Orientation error [deg]."""
+
+
+@dataclass(frozen=True)
+class CompareOrientationErrorsJoints:
+    joint: str
+    """Joint."""
+    share_pct: float
+    """Share of the squared error that an error of this joint would explain [%]."""
+    rms_urad: float
+    """RMS of that error of the joint [urad]."""
+    bins: int
+    """Bins of its angle."""
+    ln_p: float
+    """Natural logarithm of the probability of that by chance."""
+    matters: bool
+    """It is beyond chance."""
+
+
+@dataclass(frozen=True)
+class CompareOrientationErrorsMatters:
+    by: Literal["joint", "order", "region", "load", "context", "setup"]
+    """Kind of quantity."""
+    quantity: str
+    """Quantity."""
+    explained_pct: float
+    """Share of the differences that it explains [%]."""
+    ln_p: float
+    """Natural logarithm of the probability of that by chance."""
+    matters: bool
+    """It is beyond chance."""
+
+
+@dataclass(frozen=True)
+class CompareOrientationErrors:
+    """Where orientations fail; only if they are fitted."""
+
+    text: str
+    """What the orientation error changes with most; empty if nothing beyond chance."""
+    joints_text: str
+    """Which joint the orientation errors look like; empty if none."""
+    worst: list[CompareOrientationErrorsWorst]
+    """Orientations that are missed most."""
+    joints: list[CompareOrientationErrorsJoints]
+    """Which joints the orientation error looks like."""
+    matters: list[CompareOrientationErrorsMatters]
+    """Which quantities the orientation error changes with."""
+
+
+@dataclass(frozen=True)
 class CompareJoints:
     joint: str
     """Joint."""
@@ -1119,6 +1198,11 @@ class Compare:
     """Where it is known from: repeats of poses, or sigma_um of the cell."""
     inferred_floor_mm: Optional[float] = None
     """Mean 3-D error that the scatter of the joints would make, which a diagnosis inferred from what the model leaves; not measured [mm]."""
+    held_out_orientation: Optional[OrientationError] = None
+    """Orientation error of held-out readings; null with the reason in held_out_orientation_reason."""
+    held_out_orientation_reason: Optional[str] = None
+    orientation_errors: Optional[CompareOrientationErrors] = None
+    """Where orientations fail; only if they are fitted."""
     runs: Optional[list[Run]] = None
     """The runs that were named, if several were."""
 
@@ -2065,27 +2149,6 @@ class FitHeldOut:
 
 
 @dataclass(frozen=True)
-class FitHeldOutOrientation:
-    n: int
-    """How many readings."""
-    mean_deg: Optional[float]
-    """Mean of the orientation error [deg]; null with the reason in mean_deg_reason."""
-    rms_deg: Optional[float]
-    """RMS of the orientation error [deg]; null with the reason in rms_deg_reason."""
-    p95_deg: Optional[float]
-    """95 % of the orientation error [deg]; null with the reason in p95_deg_reason."""
-    max_deg: Optional[float]
-    """Largest of the orientation error [deg]; null with the reason in max_deg_reason."""
-    noise_floor_deg: Optional[float]
-    """Mean orientation error that the noise of the readings alone makes [deg]; null with the reason in noise_floor_deg_reason."""
-    mean_deg_reason: Optional[str] = None
-    rms_deg_reason: Optional[str] = None
-    p95_deg_reason: Optional[str] = None
-    max_deg_reason: Optional[str] = None
-    noise_floor_deg_reason: Optional[str] = None
-
-
-@dataclass(frozen=True)
 class FitOutliers:
     pose: str
     """Pose."""
@@ -2278,7 +2341,7 @@ class Fit:
     """Condition number of J^T J of the fitted parameters, columns in SI units; null with the reason in calibrability_reason."""
     held_out: FitHeldOut
     """Error of held-out readings."""
-    held_out_orientation: Optional[FitHeldOutOrientation]
+    held_out_orientation: Optional[OrientationError]
     """Orientation error of held-out readings; null with the reason in held_out_orientation_reason."""
     fit: Statistics
     """Error of the fitted readings: never accuracy."""
@@ -3127,6 +3190,20 @@ class RecheckAlternatives:
 
 
 @dataclass(frozen=True)
+class RecheckOrientation:
+    """Measured orientations against those of the calibration; only where it fitted them and they were measured again."""
+
+    then_mean_deg: float
+    """Mean held-out orientation error when the run was made [deg]."""
+    mean_deg: float
+    """Mean orientation error now, after what was found [deg]."""
+    turned: bool
+    """Something turns the tool that positions do not show."""
+    is_constant: bool
+    """One turn of the reflector or the last joint explains it."""
+
+
+@dataclass(frozen=True)
 class RecheckNotShown:
     """A change and how large it must be."""
 
@@ -3181,6 +3258,8 @@ class Recheck:
     """The run that was kept; null with the reason in run_reason."""
     elsewhere: Optional[int] = None
     """Readings at poses where the calibration had none nearby, so that what the model lacks there has never shown."""
+    orientation: Optional[RecheckOrientation] = None
+    """Measured orientations against those of the calibration; only where it fitted them and they were measured again."""
     run_reason: Optional[str] = None
 
 
