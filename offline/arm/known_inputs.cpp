@@ -36,10 +36,6 @@ RangeLabel label_of(const format::ContextRange& range) {
   return {range.name, range.name[0] == 'f' ? "N" : "Nm", 1.0};
 }
 
-double turn_of(const Transformd& X_BD, const Transformd& X_BC) {
-  return rotation_vector(X_BC.R * X_BD.R.transpose()).norm();
-}
-
 bool needs_place(const ContextWant& want) {
   return want.kind == WantKind::kPlaceInSeries || want.kind == WantKind::kMoment;
 }
@@ -70,13 +66,6 @@ Status KnownInputs::mark(std::span<const double> q, const MeasuredContext& at, b
   if (refused(said)) return said;
   if (outside) return Status::kOutsideDomain;
   return lacking && said == Status::kOk ? Status::kContextFallback : said;
-}
-
-bool KnownInputs::beyond_correction(const Context& at) const {
-  std::vector<double> middle(joints_.size(), 0.0);
-  for (std::size_t j = 0; j < std::min(middle.size(), domain_.q_min.size()); ++j)
-    middle[j] = 0.5 * (domain_.q_min[j] + domain_.q_max[j]);
-  return !(known_.look(middle, at).weight > 0.0);
 }
 
 bool KnownInputs::lacks(const ContextWant& want, const MeasuredContext& at, bool placed) const {
@@ -221,30 +210,6 @@ Problem KnownInputs::of_outside() const {
           .message = fmt::format("{} of {} rows lie outside what the model was fitted with: {}",
                                  outside_, rows_, fmt::join(said, ", ")),
           .help = "check the units of these columns; if they are right, measure poses there too"};
-}
-
-bool beyond_guard(const Transformd& X_BD, const Transformd& X_BC,
-                  const format::GuardLimits& limits) {
-  if ((X_BC.p - X_BD.p).norm() > limits.max_correction_m) return true;
-  return limits.corrects == format::Corrects::kPose &&
-         turn_of(X_BD, X_BC) > limits.max_rotation_rad;
-}
-
-Correction guarded(const Correction& correction, const Transformd& X_BD,
-                   const format::GuardLimits& limits) {
-  Correction out = correction;
-  if (refused(correction.status) || !beyond_guard(X_BD, correction.X_BC, limits)) return out;
-  const Vector3 shift = correction.X_BC.p - X_BD.p;
-  const double far = shift.norm();
-  if (far > limits.max_correction_m) out.X_BC.p = X_BD.p + shift * (limits.max_correction_m / far);
-  if (limits.corrects == format::Corrects::kPose) {
-    const Vector3 e = rotation_vector(correction.X_BC.R * X_BD.R.transpose());
-    const double angle = e.norm();
-    if (angle > limits.max_rotation_rad)
-      out.X_BC.R = rotation_of(e * (limits.max_rotation_rad / angle)) * X_BD.R;
-  }
-  out.status = Status::kLimited;
-  return out;
 }
 
 }  // namespace plumb::offline

@@ -7,8 +7,8 @@
 
 #include "arm/context_needs.hpp"
 #include "effects/measured_context.hpp"
-#include "plumb/runtime/corrector.hpp"
 #include "plumb/runtime/detail/known_range.hpp"
+#include "plumb/runtime/status.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -24,10 +24,6 @@ class KnownInputs {
   /// (SeriesPlace); rows of a compiled model need none. Returns the worse of `said`, the status of
   /// the prediction, and of what is found here: refused, outside-domain, context-fallback, ok.
   Status mark(std::span<const double> q, const MeasuredContext& at, bool placed, Status said);
-
-  /// Whether the context lies so far outside the fitted range that the correction has faded to zero
-  /// at all joint positions.
-  bool beyond_correction(const Context& at) const;
 
   /// Rows that an effect needs a place of in the cell's own series, while nothing tells it.
   int without_place() const;
@@ -66,15 +62,5 @@ class KnownInputs {
   int rows_ = 0;
   int outside_ = 0;
 };
-
-/// Whether this correction exceeds the limits of the guard.
-bool beyond_guard(const Transformd& X_BD, const Transformd& X_BC,
-                  const format::GuardLimits& limits);
-
-/// The correction that the guard outputs once its slew limit has settled: scaled down to the
-/// largest allowed size and marked kLimited if it exceeds that. Refused corrections are returned
-/// unchanged.
-Correction guarded(const Correction& correction, const Transformd& X_BD,
-                   const format::GuardLimits& limits);
 
 }  // namespace plumb::offline

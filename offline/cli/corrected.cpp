@@ -19,29 +19,16 @@ Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
   return X_BD;
 }
 
-/// Whether the context (payload, wrench, temperatures) may be the cause, rather than target and
-/// seed: for an arm under an impossible load the solver finds no solution.
-bool may_be_of_context(Status refusal) {
-  return refusal == Status::kNotConverged || refusal == Status::kNotFinite ||
-         refusal == Status::kFarFromSeed || refusal == Status::kOtherConfiguration;
-}
-
 }  // namespace
 
-CorrectedRow corrected_row(const Corrector& corrector, const Targets& targets, int row,
+CorrectedRow corrected_row(const SinglePoses& poses, const Targets& targets, int row,
                            std::span<const double> seed, SeedKind kind,
                            const std::vector<std::string>& sensors, KnownInputs& inputs) {
   CorrectedRow out;
-  out.X_BD = target_pose(targets, row, corrector.nominal(), seed);
+  out.X_BD = target_pose(targets, row, poses.corrector().nominal(), seed);
   const MeasuredContext context = context_at(targets.context, row, sensors);
-  out.correction =
-      guarded(corrector.solve(out.X_BD, seed, kind, context.known), out.X_BD, corrector.limits());
+  out.correction = poses.correct(out.X_BD, seed, kind, context.known);
   out.command = to_pose(out.correction.X_BC);
-  if (may_be_of_context(out.correction.status) && inputs.beyond_correction(context.known)) {
-    out.correction.status = inputs.mark(seed, context, true, Status::kOutsideDomain);
-    out.faded = true;
-    return out;
-  }
   const bool solved = !refused(out.correction.status);
   const auto q = solved ? std::span<const double>(out.correction.q).first(seed.size()) : seed;
   out.correction.status = inputs.mark(q, context, true, out.correction.status);

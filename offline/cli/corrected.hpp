@@ -7,7 +7,7 @@
 
 #include "arm/known_inputs.hpp"
 #include "cell/targets.hpp"
-#include "plumb/runtime/corrector.hpp"
+#include "plumb/runtime/single_poses.hpp"
 
 namespace plumb::offline::cli {
 
@@ -22,10 +22,10 @@ struct CorrectedRow {
   bool faded = false;    // so far outside what was fitted that nothing of the correction is left
 };
 
-/// Corrects target `row` from `seed` [rad] or [m], cut to the guard's size: the one place that
-/// decides on result and status. `sensors` are the temperatures the model reads; `inputs` records
-/// what is solved. May be called by any thread, with `inputs` of its own.
-CorrectedRow corrected_row(const Corrector& corrector, const Targets& targets, int row,
+/// Corrects target `row` from `seed` [rad] or [m], cut to the guard's size. `sensors` are the
+/// temperatures the model reads; `inputs` records what is solved. May be called by any thread, with
+/// `inputs` of its own.
+CorrectedRow corrected_row(const SinglePoses& poses, const Targets& targets, int row,
                            std::span<const double> seed, SeedKind kind,
                            const std::vector<std::string>& sensors, KnownInputs& inputs);
 

@@ -40,14 +40,14 @@ const Problem& no_orientation() {
 }  // namespace
 
 TargetRows::TargetRows(const format::Model& model, std::vector<double> start)
-    : corrector_(model),
+    : poses_(model),
       inputs_(model),
       sensors_(temperature_names(model)),
       joints_(model.nominal),
       chain_(model.nominal),
       start_(start),
       last_(std::move(start)),
-      found_(corrector_, chain_, inputs_) {}
+      found_(poses_.corrector(), chain_, inputs_) {}
 
 RowStream::Computed TargetRows::compute(Table table, const show::PassThrough& columns) {
   const auto targets = std::make_shared<const Targets>(targets_of(std::move(table), joints_));
@@ -64,7 +64,7 @@ RowStream::Computed TargetRows::compute(Table table, const show::PassThrough& co
 /// Rows with a joint state of their own do not depend on each other.
 std::function<void(std::string&)> TargetRows::solved(const Targets& targets,
                                                      const show::PassThrough& columns) {
-  TargetTotals found(corrector_, chain_, inputs_);
+  TargetTotals found(poses_.corrector(), chain_, inputs_);
   found.refusals.name_columns(targets.table);
   std::string text;
   text.reserve(static_cast<std::size_t>(targets.table.rows()) * kUsualRow);
@@ -73,8 +73,8 @@ std::function<void(std::string&)> TargetRows::solved(const Targets& targets,
     const auto q = targets.seed.row(row);
     const std::span<const double> seed(q.data(), static_cast<std::size_t>(q.size()));
     append(targets, row, seed,
-           corrected_row(corrector_, targets, row, seed, kind, sensors_, found.inputs), columns,
-           found, text);
+           corrected_row(poses_, targets, row, seed, kind, sensors_, found.inputs), columns, found,
+           text);
   }
   return [this, found, text = std::move(text)](std::string& out) {
     found_.add(found);
@@ -87,7 +87,7 @@ void TargetRows::follow(const Targets& targets, const show::PassThrough& columns
                         std::string& text) {
   found_.refusals.name_columns(targets.table);
   for (int row = 0; row < targets.table.rows(); ++row) {
-    const auto solved = corrected_row(corrector_, targets, row, last_, SeedKind::kLastSolution,
+    const auto solved = corrected_row(poses_, targets, row, last_, SeedKind::kLastSolution,
                                       sensors_, found_.inputs);
     append(targets, row, last_, solved, columns, found_, text);
     if (!refused(solved.correction.status))

@@ -60,7 +60,7 @@ class TargetRows {
                      const CorrectedRow& solved, const show::PassThrough& columns,
                      TargetTotals& found, std::string& text);
 
-  Corrector corrector_;
+  SinglePoses poses_;
   KnownInputs inputs_;  // without any row yet
   std::vector<std::string> sensors_;
   JointColumns joints_;

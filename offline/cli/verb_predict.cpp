@@ -19,6 +19,7 @@
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
 #include "noise/series_place.hpp"
+#include "plumb/runtime/single_poses.hpp"
 #include "program/counted_words.hpp"
 #include "runs/run_store.hpp"
 #include "show/units.hpp"
@@ -78,9 +79,7 @@ class ModelRows {
  public:
   explicit ModelRows(const format::Model& model)
       : joints_(model.nominal),
-        arm_(model),
-        nominal_(model.nominal),
-        guard_(model.guard),
+        poses_(model),
         unused_(model),
         inputs_(model),
         unread_(model),
@@ -131,16 +130,16 @@ class ModelRows {
         .message = fmt::format("in {} of {} rows the arm is farther from its nominal pose than "
                                "the guard lets a correction be ({} mm): the prediction is whole, "
                                "but correct and plumb-rt would cut the correction there",
-                               limited, counts_.rows(), show::mm(guard_.max_correction_m)),
+                               limited, counts_.rows(),
+                               show::mm(poses_.corrector().limits().max_correction_m)),
         .help = "raise max_correction_mm under [deploy] in cell.toml, then: plumb compile"};
   }
 
   void append(const MeasurementFiles& rows, int i, const show::PassThrough& columns,
               StatusCounts& counts, KnownInputs& inputs, std::string& text) const {
-    Prediction predicted = predicted_row(arm_, rows, i, sensors_, true, inputs);
-    if ((predicted.status == Status::kOk || predicted.status == Status::kContextFallback) &&
-        beyond_guard(nominal_.forward(joints(rows, i)), predicted.X_BT, guard_))
-      predicted.status = Status::kLimited;
+    const MeasuredContext context = context_at(rows.context, i, sensors_);
+    Prediction predicted = poses_.predict(joints(rows, i), context.known);
+    predicted.status = inputs.mark(joints(rows, i), context, true, predicted.status);
     const format::Pose pose = to_pose(predicted.X_BT);
     RowCells cells;
     for (const double p : pose.p) cells.add(show::to_mm(p));
@@ -152,9 +151,7 @@ class ModelRows {
   }
 
   JointColumns joints_;
-  MeasuredArm arm_;
-  Chain nominal_;
-  format::GuardLimits guard_;
+  SinglePoses poses_;
   KnownInputs unused_;  // without any row
   KnownInputs inputs_;
   JointUnits unread_;  // without any row

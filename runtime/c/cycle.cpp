@@ -4,33 +4,18 @@
 
 #include "check.hpp"
 #include "plumb/format/limits.hpp"
+#include "pose.hpp"
 
 namespace {
 
 using namespace plumb;
+using c::pose_of;
+using c::transform_of;
 
 static_assert(PLUMB_MAX_JOINTS == format::kMaxJoints);
 static_assert(PLUMB_MAX_TEMPERATURES == format::kMaxTemperatures);
 static_assert(PLUMB_STATUS_PARTIAL == static_cast<int>(Status::kPartial));
 static_assert(PLUMB_STATUS_STALE == static_cast<int>(Status::kStale));
-
-Transformd transform_of(const plumb_pose& pose) noexcept {
-  Transformd X;
-  for (int i = 0; i < 3; ++i) {
-    X.p(i) = pose.p_m[i];
-    for (int j = 0; j < 3; ++j) X.R(i, j) = pose.R[3 * i + j];
-  }
-  return X;
-}
-
-plumb_pose pose_of(const Transformd& X) noexcept {
-  plumb_pose out{};
-  for (int i = 0; i < 3; ++i) {
-    out.p_m[i] = X.p(i);
-    for (int j = 0; j < 3; ++j) out.R[3 * i + j] = X.R(i, j);
-  }
-  return out;
-}
 
 Reading reading_of(const plumb_input& in, std::uint32_t bit, const plumb_reading& came) noexcept {
   if ((in.arrived & bit) == 0) return {};

@@ -12,6 +12,8 @@
  * | swap  | plumb_swap_*, plumb_collect                          | yes  | one loader thread       |
  * | cycle | plumb_correct, plumb_enable, plumb_predict,          | no   | one cycle thread        |
  * |       | plumb_read_counters                                  |      |                         |
+ * | rows  | plumb_predict_rows, plumb_correct_rows               | no   | any, while no other     |
+ * |       |                                                      |      | loads or swaps          |
  * | any   | plumb_*_init and the calls that return text or the   | no   | any                     |
  * |       | number of joints                                     |      |                         |
  *
@@ -39,9 +41,11 @@
 extern "C" {
 #endif
 
-/* What the DLL exports on Windows; nothing elsewhere, and nothing for who calls it. */
+/* What the shared library exports; nothing for who calls it. */
 #if defined(_WIN32) && defined(PLUMB_BUILDS_DLL)
 #define PLUMB_API __declspec(dllexport)
+#elif defined(PLUMB_BUILDS_DLL)
+#define PLUMB_API __attribute__((visibility("default")))
 #else
 #define PLUMB_API
 #endif
@@ -144,6 +148,22 @@ typedef struct plumb_prediction {
   double tree_m[3]; /* part of the position that comes from the tree */
 } plumb_prediction;
 
+/* Poses to predict or to correct, row by row. Arrays hold `count` rows, one after the other. Of
+   what is known beside the joints, an array may be null and any number NaN: unknown. */
+typedef struct plumb_rows {
+  uint32_t size;                  /* sizeof(plumb_rows) */
+  uint32_t seed;                  /* what q is to plumb_correct_rows: PLUMB_MEASURED, or
+                                     PLUMB_COMMANDED, which seven joints or more need */
+  uint64_t count;                 /* number of rows */
+  const double* q;                /* joint positions, plumb_joint_count a row */
+  const double* payload_kg;       /* one a row */
+  const double* payload_com_m;    /* three a row, flange frame; not read without payload_kg */
+  const double* temperature_degC; /* one a row for every plumb_temperature_name */
+  const double* time_s;           /* one a row: process time */
+  const double* direction;        /* of each joint's last move: -1, 0 or 1 */
+  const double* travel;           /* size of that move, [rad] or [m] */
+} plumb_rows;
+
 /* How long the cycle may use its last inputs [s], and when a joint counts as moved. */
 typedef struct plumb_settings {
   uint32_t size;              /* sizeof(plumb_settings) */
@@ -239,6 +259,28 @@ PLUMB_API plumb_result plumb_predict(const plumb_robot* robot, const plumb_joint
 
 /* Reads the counters. Errors as plumb_correct. */
 PLUMB_API plumb_result plumb_read_counters(const plumb_robot* robot, plumb_counters* counters);
+
+/* ---- rows: lists of poses, outside of the cycle; no heap, no lock; time grows with them ---- */
+
+/*
+ * Predicts where the tool truly is, with the model that was loaded or swapped in last. The cycle
+ * and its state are not used. X_BT, status: one a row, as in plumb_prediction; the status may also
+ * be OUTSIDE_DOMAIN, or LIMITED where the guard would cut a correction that large. OK, NULL,
+ * MISALIGNED, BAD_SIZE, NOT_A_ROBOT; after an error nothing is written.
+ */
+PLUMB_API plumb_result plumb_predict_rows(const plumb_robot* robot, const plumb_rows* rows,
+                                          plumb_pose* X_BT, int32_t* status);
+
+/*
+ * Corrects targets X_BD from the seeds rows->q: what plumb_correct comes to while a row stays as it
+ * is, without ramp and slew limit. X_BC and X_BD may be the same array. q: the joint positions that
+ * bring the true arm to the target, plumb_joint_count a row; may be null. Where a row is refused,
+ * X_BC is the target (the identity if that is no pose) and q the seed. BAD_NUMBER: rows->seed is
+ * neither of its two values. Other errors as plumb_predict_rows.
+ */
+PLUMB_API plumb_result plumb_correct_rows(const plumb_robot* robot, const plumb_rows* rows,
+                                          const plumb_pose* X_BD, plumb_pose* X_BC, double* q,
+                                          int32_t* status);
 
 /* ---- any thread, constant ---- */
 

@@ -46,6 +46,25 @@ TEST(Allocation, NeverHappensInTheCallsOfTheCycle) {
   EXPECT_EQ(counters.swaps, 20U);
 }
 
+TEST(Allocation, NeverHappensForRows) {
+  const Robot robot;
+  const plumb_pose X_BD = sound_input().X_BD;
+  plumb_rows rows{};
+  rows.size = sizeof rows;
+  rows.seed = PLUMB_MEASURED;
+  rows.count = 1;
+  rows.q = home();
+  plumb_pose X{};
+  double q[PLUMB_MAX_JOINTS];
+  std::int32_t status = 0;
+  EXPECT_EQ(heap_calls_of([&] {
+              (void)plumb_predict_rows(robot.get(), &rows, &X, &status);
+              (void)plumb_correct_rows(robot.get(), &rows, &X_BD, &X, q, &status);
+            }),
+            0);
+  EXPECT_GE(status, 0);
+}
+
 TEST(Allocation, NeverHappensInAStepOfTheCycle) {
   const auto first = LoadedModel::make(informed_arm());
   const auto second = LoadedModel::make(informed_arm());

@@ -124,25 +124,5 @@ TEST(TrainedContext, HoldsTheRangesOfWhatTheEffectsRead) {
   EXPECT_EQ(ranges_read(model, ranges), (std::vector<format::ContextRange>{ranges[10]}));
 }
 
-TEST(Guarded, NothingLargerThanTheGuardAllowsAndThenItSaysSo) {
-  format::GuardLimits limits;
-  limits.corrects = format::Corrects::kPose;
-  limits.max_correction_m = 1e-3;
-  limits.max_rotation_rad = 1e-3;
-  const Transformd X_BD;
-  Correction c;
-  c.status = Status::kOk;
-  c.X_BC.p = Vector3(3e-3, 0.0, 4e-3);
-  c.X_BC.R = rotation_of(Vector3(0.0, 5e-3, 0.0));
-  const Correction cut = guarded(c, X_BD, limits);
-  EXPECT_EQ(cut.status, Status::kLimited);
-  EXPECT_NEAR((cut.X_BC.p - Vector3(0.6e-3, 0.0, 0.8e-3)).norm(), 0.0, 1e-15);
-  EXPECT_NEAR(rotation_vector(cut.X_BC.R).norm(), 1e-3, 1e-12);
-  c.X_BC.p *= 0.1;
-  c.X_BC.R = Matrix3::Identity();
-  EXPECT_EQ(guarded(c, X_BD, limits).status, Status::kOk);
-  EXPECT_EQ(guarded(c, X_BD, limits).X_BC.p, c.X_BC.p);
-}
-
 }  // namespace
 }  // namespace plumb::offline

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import page_types
+import python_types
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 README = (SOURCE / "README.md").read_text()
@@ -95,6 +96,12 @@ class Ci(unittest.TestCase):
 class PageOfTheWorkbench(unittest.TestCase):
     def test_its_types_of_results_are_those_of_the_schemas(self):
         self.assertEqual(page_types.FILE.read_text(), page_types.page(), "write it anew: tests/pages/page_types.py")
+
+
+class PythonPackage(unittest.TestCase):
+    def test_its_results_and_verbs_are_those_of_the_schemas(self):
+        for file, page in python_types.FILES.items():
+            self.assertEqual(file.read_text(), page(), f"write {file.name} anew: tests/pages/python_types.py")
 
 
 class Pages(unittest.TestCase):

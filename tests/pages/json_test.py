@@ -3,7 +3,7 @@
 """Holds what the programs print with --json against docs/schemas, and the page of the schemas against them.
 
 usage: json_test.py FOLDER   the folder of plumb, plumb-rt and plumb-twin
-Needs the Debian package python3-jsonschema.
+Needs the Debian packages python3-jsonschema and python3-numpy.
 """
 import collections
 import copy
@@ -23,9 +23,17 @@ except ModuleNotFoundError:
     sys.exit("error: the Python module jsonschema is missing\n  = help: scripts/install-deps")
 
 import json_page
+import kept_whole
 import outputs
+import python_types
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(SOURCE / "offline/python"))
+try:
+    from plumb import answer, results
+except ModuleNotFoundError:
+    sys.exit("error: the Python module numpy is missing\n  = help: scripts/install-deps")
+
 SCHEMAS = SOURCE / "docs/schemas"
 PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
 SHARED = {"envelope", "common"}
@@ -132,6 +140,16 @@ class Json(unittest.TestCase):
         self.assertFalse(self.check["fit"].is_valid(wrong))
         wrong["result"]["held_out"]["mean_mm_reason"] = "no pose belongs to this set"
         self.assertTrue(self.check["fit"].is_valid(wrong))
+
+    def test_the_types_of_the_python_package_keep_every_result_whole(self):
+        seen = set()
+        for printed in self.printed:
+            verb = printed.schema_name()
+            if printed.json["ok"] and verb in python_types.verbs():
+                seen.add(verb)
+                made = answer.answer_of(printed.json, getattr(results, python_types.class_name(verb)), None)
+                self.assertEqual(list(kept_whole.lost(made.result, printed.json["result"])), [], printed.command)
+        self.assertEqual(seen, set(python_types.verbs()))
 
     def test_the_page_has_every_schema_and_every_section_it_links(self):
         page = json_page.page()

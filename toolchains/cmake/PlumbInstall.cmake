@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Install and export: find_package(Plumb) gives Plumb::format, Plumb::runtime, Plumb::robot, Plumb::c
-# and, on Linux, Plumb::drivers. Three components, each of which is a Debian package (PlumbPackage.cmake): plumb (the
-# offline half with the twin), plumb-rt (the daemon and what the system needs for it) and dev (what is linked).
+# and, on Linux, Plumb::drivers. Five components, each of which is a Debian package (PlumbPackage.cmake): plumb (the
+# offline half with the twin), plumb-rt (the daemon and what the system needs for it), dev (what is linked), lib (the C
+# interface as a shared library) and python (the package that uses both).
 include(CMakePackageConfigHelpers)
 
 # plumb_needs(COMPONENT TARGET...): the installation of a component ends with what to build, if a target of it is not.
@@ -16,12 +17,13 @@ endif()" COMPONENT ${component})
   endforeach()
   install(CODE "if(plumb_missing)
   string(REPLACE \";\" \" \" plumb_missing \"\${plumb_missing}\")
-  message(FATAL_ERROR \"component ${component} is not built whole. Build it first:\\n  cmake --build ${PROJECT_BINARY_DIR} --target \${plumb_missing}\\nor install another one alone: --component plumb|plumb-rt|dev\")
+  message(FATAL_ERROR \"component ${component} is not built whole. Build it first:\\n  cmake --build ${PROJECT_BINARY_DIR} --target \${plumb_missing}\\nor install another one alone: --component plumb|plumb-rt|dev|lib|python\")
 endif()" COMPONENT ${component})
 endfunction()
 plumb_needs(dev plumb_format plumb_runtime plumb_robot plumb_c plumb_drivers)
 plumb_needs(plumb plumb plumb-twin)
 plumb_needs(plumb-rt plumb-rt)
+plumb_needs(lib plumb_shared)
 
 set(plumb_package ${CMAKE_INSTALL_LIBDIR}/cmake/Plumb)
 install(TARGETS plumb_format plumb_runtime plumb_robot plumb_c EXPORT PlumbTargets
@@ -45,6 +47,15 @@ endif()
 if(TARGET plumb_drivers)
   install(TARGETS plumb_drivers EXPORT PlumbTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   install(DIRECTORY drivers/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+endif()
+
+if(TARGET plumb_shared)
+  install(TARGETS plumb_shared LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_SKIP COMPONENT lib)
+endif()
+if(TARGET plumb AND PROJECT_IS_TOP_LEVEL)
+  set(PLUMB_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Where Python looks for packages, below the prefix")
+  install(DIRECTORY offline/python/plumb DESTINATION ${PLUMB_PYTHON_DIR} COMPONENT python PATTERN __pycache__ EXCLUDE)
+  install(FILES examples/08_from_python.py DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-plumb/examples COMPONENT python)
 endif()
 
 # The examples, with a project of their own and the model that two of them read.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages, made by scripts/package from the install components: plumb, plumb-rt and libplumb-dev. What a package
+# Debian packages, made by scripts/package from the install components: plumb, plumb-rt, libplumb-dev,
+# libplumb0 and python3-plumb. What a package
 # has beyond the installed files (copyright, change log, compressed manual pages) is added by package_files.cmake.
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
@@ -22,9 +23,9 @@ set(CPACK_PLUMB_STRIP ${CMAKE_STRIP})
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL plumb-rt dev)
+set(CPACK_COMPONENTS_ALL plumb-rt dev lib)
 if(TARGET plumb)
-  list(APPEND CPACK_COMPONENTS_ALL plumb)
+  list(APPEND CPACK_COMPONENTS_ALL plumb python)
 endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -81,4 +82,23 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION "correction of robot targets in your own con
 Headers and static libraries of Plumb's hard-real-time cycle for C++ and C,
 of the reader of model files, and of the drivers for CAN and Modbus, with a
 configuration for CMake and examples.")
+
+set(CPACK_DEBIAN_LIB_PACKAGE_NAME libplumb0)
+set(CPACK_DEBIAN_LIB_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIB_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIB_PACKAGE_CONTROL_EXTRA ${debian}/libplumb0/shlibs ${debian}/libplumb0/triggers)
+set(CPACK_COMPONENT_LIB_DESCRIPTION "correction of robot targets, as a shared library
+The C interface of Plumb (plumb.h of libplumb-dev) for programs that load it
+while they run, such as Python: it loads a compiled model, predicts where the
+arm truly is and corrects targets, one in a cycle or lists of them.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-plumb)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy, libplumb0")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS plumb)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${debian}/python3-plumb/postinst ${debian}/python3-plumb/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "calibration of robot arms, from Python
+The package plumb runs the verbs of the program plumb, with typed results, and
+evaluates compiled models on numpy arrays.")
 include(CPack)
