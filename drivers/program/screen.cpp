@@ -173,6 +173,15 @@ std::vector<std::string> with_parted_tables(const std::vector<std::string>& line
   return out;
 }
 
+/// Where a unified diff begins; the length of the text if it holds none.
+std::size_t begin_of_diff(const std::string& text) {
+  for (std::size_t at = text.find("\n--- "); at != std::string::npos;
+       at = text.find("\n--- ", at + 1))
+    if (text.compare(std::min(text.find('\n', at + 1), text.size()), 5, "\n+++ ") == 0)
+      return at + 1;
+  return text.size();
+}
+
 std::size_t columns_of(int descriptor) {
   std::size_t columns = 0;
   if (const char* told = std::getenv("COLUMNS"); told != nullptr) {
@@ -198,8 +207,10 @@ Screen screen_of(int descriptor) {
   return {columns_of(descriptor), ink_of(descriptor), ::isatty(descriptor) != 0};
 }
 
-std::string laid_out(const std::string& text, const Screen& screen,
+std::string laid_out(const std::string& whole_text, const Screen& screen,
                      std::span<const Verdict> verdicts) {
+  const std::size_t diff = begin_of_diff(whole_text);
+  const std::string text = whole_text.substr(0, diff);
   std::vector<WordColour> beginnings(std::begin(kActions), std::end(kActions));
   for (const Verdict& verdict : verdicts)
     for (const auto& [name, colour] : kClasses)
@@ -212,7 +223,7 @@ std::string laid_out(const std::string& text, const Screen& screen,
     out += (screen.ink == Screen::Ink::kColour ? coloured(line, beginnings) : line) + "\n";
   }
   if (!out.empty() && !text.ends_with('\n')) out.pop_back();
-  return out;
+  return out + whole_text.substr(diff);
 }
 
 std::string laid_out_help(const std::string& help, const Screen& screen) {

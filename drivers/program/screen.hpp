@@ -25,6 +25,8 @@ Screen screen_of(int descriptor);
 /// between cells) the last cell is wrapped within its column. A table whose other cells are
 /// too wide is split into several, one below the other, each with the first column. Commands to
 /// paste are not wrapped; if one is too wide, the comment after it is moved to a line of its own.
+/// From the first lines "--- FILE" and "+++ FILE" on, which begin a unified diff, the text stays as
+/// it is.
 std::string laid_out(const std::string& text, const Screen& screen,
                      std::span<const Verdict> verdicts = {});
 

@@ -61,6 +61,26 @@ constexpr Explanation kCodes[] = {
      "A cell of a fleet could not be fitted. The others are not affected; it is in the table with "
      "its "
      "reason, and is tried again as soon as its files change."},
+    {"E-FILTER-LANGUAGE",
+     "plumb filter tells the language of a program from the ending of its name: RAPID .mod .prg, "
+     "Fanuc .ls (not the binary .tp), KRL .src with its .dat, URScript .script. They are text, of "
+     "one byte a character or UTF-8. Nothing was written."},
+    {"E-FILTER-NONE",
+     "No target of the programs can be corrected; each is listed with its line, why, and what to "
+     "do. Mostly a tool or a work frame is not known, which --tool and --frame say, or where the "
+     "joints are, which --start says. Nothing was written."},
+    {"E-FILTER-TWICE",
+     "The program says in a comment that its targets are corrected already. Corrected twice it "
+     "would be wrong by as much as it was at first. Filter the program as it was before."},
+    {"N-FILTER-DIGITS",
+     "Targets are written with as many decimals as the program has, and these leave a part of the "
+     "corrections out. --decimals writes more, if the controller reads them."},
+    {"W-FILTER-TOOL",
+     "The program moves another tool than that of the model. Both poses are counted from the "
+     "flange; if the model's Denavit-Hartenberg rows end in a flange that is turned or moved "
+     "against that of the controller, the targets are wrong. Compare with the controller's own "
+     "display at one pose: plumb predict gives the pose of the model's tool. Or say that the tool "
+     "is the model's: --tool NAME=model."},
     {"E-FIT-EARLIER",
      "A run from which numbers of the arm are to be taken over must be of an arm of the same "
      "model, "

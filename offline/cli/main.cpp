@@ -20,11 +20,11 @@ int main(int argc, char** argv) {
                   .see_also = {"plumb-rt", "plumb-twin"}}},
       plumb::WorksIn::kCell);
   for (const auto add :
-       {add_demo,    add_new,      add_simulate, add_import, add_check,  add_fit,
-        add_compare, add_diagnose, add_add,      add_drop,   add_plan,   add_recheck,
-        add_fleet,   add_runs,     add_diff,     add_plot,   add_report, add_serve,
-        add_compile, add_export,   add_keygen,   add_deploy, add_dbc,    add_modbus_map,
-        add_inspect, add_predict,  add_correct,  add_bench,  add_study,  add_explain})
+       {add_demo,     add_new,   add_simulate,   add_import,  add_check,   add_fit,     add_compare,
+        add_diagnose, add_add,   add_drop,       add_plan,    add_recheck, add_fleet,   add_runs,
+        add_diff,     add_plot,  add_report,     add_serve,   add_compile, add_export,  add_keygen,
+        add_deploy,   add_dbc,   add_modbus_map, add_inspect, add_predict, add_correct, add_filter,
+        add_bench,    add_study, add_explain})
     add(program);
   return program.run(argc, argv);
 }

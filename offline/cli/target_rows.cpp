@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/target_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "arm/effect_binding.hpp"
@@ -38,6 +40,16 @@ const Problem& no_orientation() {
 }
 
 }  // namespace
+
+std::vector<Problem> limited_remark(const TargetTotals& found) {
+  if (found.limited == 0) return {};
+  return {{.severity = Severity::kWarning,
+           .code = "W-CORRECT-LIMITED",
+           .message = fmt::format("{} of {} corrections are larger than the guard allows and were "
+                                  "cut to its limit",
+                                  found.limited, found.counts.rows()),
+           .help = "raise max_correction_mm under [deploy] in cell.toml, then: plumb compile"}};
+}
 
 TargetRows::TargetRows(const format::Model& model, std::vector<double> start)
     : poses_(model),

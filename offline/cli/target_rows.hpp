@@ -37,6 +37,9 @@ struct TargetTotals {
   }
 };
 
+/// W-CORRECT-LIMITED, or nothing where the guard cut no correction.
+std::vector<Problem> limited_remark(const TargetTotals& found);
+
 /// Corrects the targets of a file, block by block: each from its own joint state; without joint
 /// columns from the last solution, `start` [rad] or [m] being the first. The model must outlive it.
 class TargetRows {

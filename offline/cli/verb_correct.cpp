@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/cell_data.hpp"
 #include "cli/csv_output.hpp"
 #include "cli/model_file.hpp"
+#include "cli/start_joints.hpp"
 #include "cli/target_rows.hpp"
 #include "cli/verbs.hpp"
 #include "compile/tool_uncertainty.hpp"
@@ -28,41 +26,6 @@ struct CorrectArguments {
   std::optional<std::string> start;  // deg or mm, with commas between
   CsvOutput output;
 };
-
-/// "0,-90,90" as numbers. Split here, because the option parser takes the next word of the command
-/// line for a number where nothing stands between commas.
-std::vector<double> numbers_of(const std::string& text) {
-  std::vector<double> out;
-  std::istringstream in(text + ",");
-  for (std::string word; std::getline(in, word, ',');) {
-    char* end = nullptr;
-    const double number = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0' || !std::isfinite(number))
-      throw Failure(Exit::kUsage, {.code = "E-USAGE",
-                                   .message = fmt::format("--start holds '{}'", word),
-                                   .help = "give one number a joint, deg or mm: "
-                                           "--start 0,-90,90,0,90,0"});
-    out.push_back(number);
-  }
-  return out;
-}
-
-/// The joint angles at --start, in SI.
-std::vector<double> start_of(const CorrectArguments& options, const format::Chain& chain) {
-  if (!options.start) return {};
-  const std::vector<double> start = numbers_of(*options.start);
-  if (start.size() != chain.joints.size())
-    throw Failure(Exit::kUsage,
-                  {.code = "E-USAGE",
-                   .message = fmt::format("--start has {} numbers, the arm {} joints", start.size(),
-                                          chain.joints.size()),
-                   .help = "give one number a joint, deg or mm, with commas between"});
-  std::vector<double> out;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    out.push_back(show::slides(chain.joints[i]) ? start[i] * 1e-3 : show::from_deg(start[i]));
-  Coupling(chain.coupling).to_angles(out);
-  return out;
-}
 
 auto corrected_rows(const TargetTotals& found) {
   return found.counts.rows() - found.counts.refused_rows() - found.faded;
@@ -83,14 +46,7 @@ std::string verdict(const TargetTotals& found) {
 
 void judge(const TargetTotals& found, Outcome& outcome) {
   const auto rows = found.counts.rows(), refused = found.counts.refused_rows();
-  if (found.limited > 0)
-    outcome.remarks.push_back(
-        {.severity = Severity::kWarning,
-         .code = "W-CORRECT-LIMITED",
-         .message = fmt::format("{} of {} corrections are larger than the guard allows and were "
-                                "cut to its limit",
-                                found.limited, rows),
-         .help = "raise max_correction_mm under [deploy] in cell.toml, then: plumb compile"});
+  outcome.remark(limited_remark(found));
   outcome.remark(found.inputs.remarks());
   if (refused == 0 && corrected_rows(found) > 0) return;
   if (corrected_rows(found) > 0) {
@@ -151,7 +107,7 @@ void correct(const CorrectArguments& options, const Globals& globals, Outcome& o
   check_output(options.output, globals);
   const format::Model model = open_model(options.model, outcome);
   keep_cells_around(globals, options.output.file, outcome);
-  TargetRows rows(model, start_of(options, model.nominal));
+  TargetRows rows(model, start_of(options.start, model.nominal));
   RowStream stream(options.data, TargetRows::columns(), options.output, outcome);
   stream.run(
       [&](Table table, const show::PassThrough& columns) {

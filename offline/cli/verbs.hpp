@@ -29,6 +29,7 @@ void add_modbus_map(Program& program);
 void add_inspect(Program& program);
 void add_predict(Program& program);
 void add_correct(Program& program);
+void add_filter(Program& program);
 void add_bench(Program& program);
 void add_simulate(Program& program);
 void add_study(Program& program);

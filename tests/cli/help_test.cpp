@@ -12,7 +12,7 @@ namespace {
 const std::vector<std::string> kVerbs{
     "demo",    "new",     "simulate", "check",   "fit",     "compare", "runs",   "diff",
     "compile", "inspect", "predict",  "correct", "bench",   "dbc",     "deploy", "modbus-map",
-    "explain", "plot",    "report",   "serve",   "recheck", "fleet"};
+    "explain", "plot",    "report",   "serve",   "recheck", "fleet",   "filter"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;
@@ -83,7 +83,7 @@ TEST(Help, IsNoWiderThanTheTerminal) {
        {"demo",     "new",    "simulate", "import",     "check",   "fit",     "compare",
         "diagnose", "add",    "drop",     "plan",       "runs",    "diff",    "compile",
         "export",   "deploy", "dbc",      "modbus-map", "inspect", "predict", "correct",
-        "bench",    "study",  "explain",  "plot",       "report",  "serve"}) {
+        "bench",    "study",  "explain",  "plot",       "report",  "serve",   "filter"}) {
     const Ran ran = box.plumb_on_terminal(80, {verb, "--help"});
     EXPECT_EQ(ran.exit, 0) << verb;
     EXPECT_EQ(too_wide(ran.out), "") << verb;

@@ -103,6 +103,10 @@ def in_cell(plumb, cell):
     plumb.run("plumb", "inspect", f"{cell}/robot.plumb")
     plumb.run("plumb", "predict", f"{cell}/robot.plumb", "--data", f"{cell}/measurements.csv", "-o", f"{cell}/p.csv")
     plumb.run("plumb", "correct", f"{cell}/robot.plumb", "--data", f"{cell}/targets.csv", "-o", f"{cell}/c.csv")
+    corpus = pathlib.Path(__file__).resolve().parents[1] / "programs/corpus"
+    for program in (corpus / "traps.mod", corpus / "traps.script"):  # of the second none: where are the joints?
+        plumb.run(*at, "filter", str(program), "-o", f"{cell}/filtered")
+        plumb.run(*at, "filter", str(program), "-o", f"{cell}/filtered", "--dry-run", "--force")
     plumb.run("plumb", "bench", f"{cell}/robot.plumb", "--calls", "200")
     plumb.run(*at, "diagnose", "--apply", "--dry-run")
     plumb.run(*at, "diagnose", "--apply")

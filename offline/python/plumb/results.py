@@ -2100,6 +2100,61 @@ class Export:
 
 
 @dataclass(frozen=True)
+class FilterProgramsUntouched:
+    file: str
+    """File."""
+    line: int
+    """Line, from 1."""
+    target: str
+    """Its name, or what stands in its place."""
+    why: str
+    """Why it was not touched."""
+    help: str
+    """What to do."""
+
+
+@dataclass(frozen=True)
+class FilterPrograms:
+    file: str
+    """The program that was read."""
+    language: Literal["RAPID", "Fanuc LS", "KRL", "URScript"]
+    """Its language."""
+    targets: int
+    """Targets: those corrected and those in untouched."""
+    corrected: int
+    """Targets that were corrected."""
+    changed: int
+    """Corrected targets of which a digit changed."""
+    refused: int
+    """Targets in untouched whose correction was tried and refused."""
+    joint_targets: int
+    """Targets of joints that were left as they are, because --joint-targets was not given."""
+    untouched: list[FilterProgramsUntouched]
+    """Targets that were not corrected."""
+    largest_mm: float
+    """Largest correction of the position [mm]."""
+    rounding_mm: float
+    """The most of a corrected position that the digits of the program leave out [mm]."""
+    between_targets_mm: Optional[float]
+    """Along the linear moves between corrected targets: the largest distance of the true tool from the straight line that was meant, by the model [mm]; null with the reason in between_targets_mm_reason."""
+    between_targets_mm_reason: Optional[str] = None
+    diff: Optional[str] = None
+    """With --dry-run: the changed lines as a unified diff."""
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Result of plumb filter: Robot programs with corrected targets."""
+
+    programs: list[FilterPrograms]
+    """The programs, each with its data file."""
+    files: list[str]
+    """Files that were written, or would be with --dry-run."""
+    dry_run: bool
+    """--dry-run was given: nothing was written."""
+
+
+@dataclass(frozen=True)
 class FitParameters:
     name: str
     """Parameter of the arm or of an effect."""

@@ -88,6 +88,11 @@ class Verbs:
         """Writes the arm as URDF. Options: plumb export --help"""
         return self._run("export", words, options, results.Export, progress)
 
+    def filter(self, *words: Word, progress: Optional[Progress] = None,
+               **options: Option) -> Answer[results.Filter]:
+        """Robot programs with corrected targets. Options: plumb filter --help"""
+        return self._run("filter", words, options, results.Filter, progress)
+
     def fit(self, *words: Word, progress: Optional[Progress] = None,
             **options: Option) -> Answer[results.Fit]:
         """Calibrates the arm. Options: plumb fit --help"""

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "programs/languages.hpp"
+#include "programs/lexer.hpp"
+
+/// Fanuc LS, the text form of a teach pendant program: statements behind /MN, positions behind
+/// /POS: P[1]{ GP1: UF : 1, UT : 1, CONFIG : 'N U T, 0, 0, 0', X = 1.0 mm, ... W = 0.0 deg, ... };
+/// the user frames and tools themselves are not in the file. FANUC Robot series, operator's manual.
+namespace plumb::offline::programs {
+namespace {
+
+constexpr std::array kPose{"x", "y", "z", "w", "p", "r"};
+
+class FanucReader {
+ public:
+  explicit FanucReader(Program& program)
+      : program_(program),
+        tokens_(
+            program.sources[0], 0,
+            {.comments = {"!", "//", "--"}, .quote = '\'', .only_first = true, .labels = true}) {
+    tokens_.drop_comments(false);
+  }
+
+  void read() {
+    program_.tools["0"].X = Transformd();
+    program_.frames["0"].X = Transformd();
+    std::size_t begin = section("mn"), positions = section("pos");
+    for (std::size_t i = positions; i < tokens_.size(); ++i)
+      if (line_begins(i) && is_position(i) && tokens_.is(i + 4, "{")) position(i);
+    if (begin == tokens_.size()) return;
+    std::size_t from = begin;
+    for (std::size_t i = begin; i <= positions; ++i) {
+      if (i < positions && !tokens_.is(i, ";")) continue;
+      statement(from, std::min(i, tokens_.size()));
+      from = i + 1;
+    }
+  }
+
+ private:
+  bool line_begins(std::size_t i) const {
+    return i == 0 || tokens_.at(i - 1).kind == Token::Kind::kLine;
+  }
+
+  /// The first token behind "/MN"; the number of tokens if there is none.
+  std::size_t section(std::string_view name) const {
+    for (std::size_t i = 0; i + 1 < tokens_.size(); ++i)
+      if (line_begins(i) && tokens_.is(i, "/") && tokens_.is(i + 1, name)) return i + 2;
+    return tokens_.size();
+  }
+
+  bool is_position(std::size_t i) const {
+    return tokens_.is(i, "p") && tokens_.is(i + 1, "[") &&
+           tokens_.at(i + 2).kind == Token::Kind::kNumber && tokens_.is(i + 3, "]");
+  }
+
+  std::string after_colon(std::size_t i) const {
+    const bool number = tokens_.at(i + 2).kind == Token::Kind::kNumber;
+    return tokens_.is(i + 1, ":") && number ? std::string(tokens_.text(i + 2)) : "default";
+  }
+
+  void position(std::size_t i) {
+    Target target{.name = "P[" + std::string(tokens_.text(i + 2)) + "]",
+                  .line = tokens_.line(i),
+                  .tool = "default",
+                  .frame = "default"};
+    std::map<std::string, Number> found;
+    std::size_t k = i + 5;
+    for (; !tokens_.ended(k) && !tokens_.is(k, "}"); ++k) {
+      if (tokens_.is(k, "gp2") && tokens_.is(k + 1, ":")) break;
+      if (tokens_.is(k, "uf")) target.frame = after_colon(k);
+      if (tokens_.is(k, "ut")) target.tool = after_colon(k);
+      if (tokens_.is(k, "config") && tokens_.is(k + 1, ":"))
+        target.configuration = configuration(tokens_.lower(k + 2));
+      std::size_t n = k + 2;
+      if (!tokens_.is_word(k) || !tokens_.is(k + 1, "=")) continue;
+      if (const auto number = tokens_.number(n)) found.emplace(tokens_.lower(k), *number);
+    }
+    fill(target, found);
+    const auto index = static_cast<int>(program_.targets.size());
+    if (!index_.emplace(tokens_.text(i + 2), index).second) {
+      target.why = "the program states it more than once";
+      target.help = "give every position a number of its own";
+      spoil(index_[std::string(tokens_.text(i + 2))], target.why, target.help);
+    }
+    program_.targets.push_back(target);
+  }
+
+  static void fill(Target& target, const std::map<std::string, Number>& found) {
+    Written& written = target.written;
+    written.notation = Notation::kXyz;
+    for (const char* const name : kPose)
+      if (const auto at = found.find(name); at != found.end())
+        written.numbers.push_back(at->second);
+    if (written.numbers.size() == kPose.size()) return;
+    written = {.notation = Notation::kJoints_deg, .numbers = {}};
+    for (int joint = 1; joint <= 9; ++joint)
+      if (const auto at = found.find(fmt::format("j{}", joint)); at != found.end())
+        written.numbers.push_back(at->second);
+    if (!written.numbers.empty()) return;
+    target.why = "it is not taught: its numbers are missing";
+    target.help = "teach it on the controller, and take the file anew";
+  }
+
+  /// 'N U T, 0, 0, 0': F where axis 5 is positive, U with the elbow above, T with the wrist in
+  /// front of axis 1, then the turns of axes 1, 4 and 6: 0 is -180 to 180 deg.
+  static Configuration configuration(const std::string& text) {
+    Configuration out;
+    std::vector<int> turns;
+    bool known = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const char c = text[i];
+      if (c == 'n') out.ranges.push_back({4, -360.0, 0.0});
+      if (c == 'f') out.ranges.push_back({4, 0.0, 360.0});
+      if (c == 't' || c == 'b') out.front = c == 't';
+      if (c == 'u' || c == 'd') out.elbow_front = c == 'u';
+      known = known || c == ',';
+      const bool digit = c >= '0' && c <= '9';
+      if (known && digit && turns.size() < 3)
+        turns.push_back(text[i - 1] == '-' ? '0' - c : c - '0');
+    }
+    constexpr int kAxes[] = {0, 3, 5};
+    for (std::size_t k = 0; k < turns.size(); ++k)
+      out.ranges.push_back({kAxes[k], 360.0 * turns[k] - 180.0, 360.0 * turns[k] + 180.0});
+    return out;
+  }
+
+  void spoil(int index, const std::string& why, const std::string& help) {
+    Target& target = program_.targets[static_cast<std::size_t>(index)];
+    if (!target.why.empty()) return;
+    target.why = why;
+    target.help = help;
+  }
+
+  /// Tokens [from, to): "12 : L P[1] 100 mm / sec FINE", on one or several lines.
+  void statement(std::size_t from, std::size_t to) {
+    std::size_t i = from;
+    while (i < to && !tokens_.is_word(i)) ++i;
+    const bool joint = tokens_.is(i, "j"), line = tokens_.is(i, "l");
+    const bool circle = tokens_.is(i, "c") || tokens_.is(i, "a");
+    const bool goes = joint || line || circle;
+    if (!goes || !(tokens_.is(i + 1, "p") || tokens_.is(i + 1, "pr"))) return other(i, to);
+    Move move{.motion = joint ? Motion::kJoint : Motion::kLinear, .line = tokens_.line(i)};
+    if (circle) move.motion = tokens_.is(i, "c") ? Motion::kVia : Motion::kCircleEnd;
+    bool first = true;
+    for (std::size_t k = i + 1; k < to; ++k) {
+      if (!tokens_.is(k + 1, "[") || !(tokens_.is(k, "p") || tokens_.is(k, "pr"))) continue;
+      if (!first && (tokens_.is(k - 1, ",") || move.motion != Motion::kVia)) continue;
+      if (!first) move.motion = Motion::kCircleEnd;
+      move.target = goal(k, move.line);
+      program_.moves.push_back(move);
+      if (const auto* word = changed_by(i, to); word != nullptr && move.target >= 0)
+        spoil(move.target, fmt::format("line {} moves it with {}", move.line, word),
+              "state the position that is meant, without an offset");
+      first = false;
+    }
+  }
+
+  const char* changed_by(std::size_t from, std::size_t to) const {
+    constexpr std::array kWords{"offset",        "tool_offset",  "voffset", "inc",   "rtcp",
+                                "sensor_offset", "touch_offset", "track",   "coord", "mrot"};
+    for (std::size_t k = from; k < to; ++k)
+      for (const char* const word : kWords)
+        if (tokens_.is(k, word)) return word;
+    return nullptr;
+  }
+
+  int goal(std::size_t i, int line) {
+    const bool number = is_position(i);
+    if (number)
+      if (const auto at = index_.find(std::string(tokens_.text(i + 2))); at != index_.end())
+        return at->second;
+    std::size_t end = i + 2;
+    while (!tokens_.ended(end) && !tokens_.is(end, "]") &&
+           tokens_.at(end).kind != Token::Kind::kLine)
+      ++end;
+    if (tokens_.is(end + 1, "]")) ++end;  // P[R[5]]
+    return program_.list(tokens_.quoted(i, end + 1), 0, line,
+                         number ? "the program does not state it" : "it is read from a register",
+                         "state it as a position of the program");
+  }
+
+  /// A statement that is no move: what it does to positions and frames.
+  void other(std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
+      if (is_position(k))
+        if (const auto at = index_.find(std::string(tokens_.text(k + 2))); at != index_.end())
+          spoil(
+              at->second,
+              fmt::format("line {} uses it for something else than a move to it", tokens_.line(k)),
+              "give the moves a position that nothing else reads or changes");
+      const bool tool = tokens_.is(k, "utool"), frame = tokens_.is(k, "uframe");
+      if (!(tool || frame) || !tokens_.is(k + 1, "[") || !tokens_.is(k + 3, "]")) continue;
+      if (tokens_.is(k + 4, "="))
+        (tool ? program_.tools : program_.frames)[std::string(tokens_.text(k + 2))] = {
+            .X = {}, .why = fmt::format("line {} sets it from a register", tokens_.line(k))};
+    }
+  }
+
+  Program& program_;
+  Tokens tokens_;
+  std::map<std::string, int, std::less<>> index_;
+};
+
+}  // namespace
+
+void read_fanuc(Program& program) { FanucReader(program).read(); }
+
+/// Behind the line "/MN".
+std::size_t fanuc_comment_place(std::string_view bytes) {
+  std::size_t at = 0;
+  while (at < bytes.size()) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
+    if (lower_case(bytes.substr(at, 3)) == "/mn") return end;
+    at = end;
+  }
+  return 0;
+}
+
+}  // namespace plumb::offline::programs

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "programs/current_frame.hpp"
+#include "programs/languages.hpp"
+#include "programs/names.hpp"
+#include "programs/written.hpp"
+
+/// KRL of KUKA: aggregates {X 1,Y 2,Z 3,A 0,B 90,C 0,S 2,T 35,E1 0}, declared in the .dat file or
+/// standing in the move; tools and bases by $TOOL, $BASE, BAS(#TOOL,n) or the record FDAT_ACT of an
+/// inline form. KUKA System Software, Operating and Programming Instructions.
+namespace plumb::offline::programs {
+namespace {
+
+constexpr std::array kPoseParts{"x", "y", "z", "a", "b", "c"};
+constexpr std::array kAxisParts{"a1", "a2", "a3", "a4", "a5", "a6"};
+
+/// The numbers of an aggregate by their names; empty if anything in it is computed.
+using Aggregate = std::map<std::string, Number>;
+
+class KrlReader {
+ public:
+  explicit KrlReader(Program& program) : program_(program), names_(program) {
+    for (std::size_t s = 0; s < program.sources.size(); ++s)
+      files_.emplace_back(program.sources[s], s, Lexis{.comments = {";", "&"}});
+  }
+
+  void read() {
+    for (Frames* frames : {&program_.tools, &program_.frames}) (*frames)["0"].X = Transformd();
+    for (Tokens& file : files_) {
+      comments_.push_back(file);
+      file.drop_comments(false);
+      for (std::size_t i = 0; i < file.size(); ++i) declaration(file, i);
+    }
+    for (Tokens& file : files_) {
+      walk(file, false);
+      tool_.decide();
+      base_.decide();
+      walk(file, true);
+    }
+    for (const Tokens& file : files_) names_.look_for_mentions(file);
+    copies();
+  }
+
+ private:
+  static bool begins(const Tokens& t, std::size_t i) {
+    return i == 0 || t.at(i - 1).kind == Token::Kind::kLine;
+  }
+  static bool ends(const Tokens& t, std::size_t i) {
+    return t.ended(i) || t.at(i).kind == Token::Kind::kLine;
+  }
+
+  /// {X 1, Y 2} or {E6POS: X 1, Y 2} at token i, moved behind; other words as values are left out.
+  static std::optional<Aggregate> aggregate(const Tokens& t, std::size_t& i) {
+    std::size_t k = i;
+    if (!t.is(k, "{")) return std::nullopt;
+    if (t.is_word(k + 1) && t.is(k + 2, ":")) k += 2;
+    Aggregate out;
+    do {
+      if (!t.is_word(k + 1)) return std::nullopt;
+      const std::string name = t.lower(k + 1);
+      k += 2;
+      if (t.is(k, "[") && t.is(k + 1, "]")) k += 2;
+      if (const auto bits = binary(t, k)) {
+        out[name].value = *bits;
+      } else if (t.is(k, "#") && t.is_word(k + 1)) {
+        if (t.is(k + 1, "tcp")) out["#tcp"] = {};
+        k += 2;
+      } else if (t.is_word(k) || t.at(k).kind == Token::Kind::kText) {
+        ++k;  // left out, so that a position with such a part is not whole
+      } else {
+        const auto number = t.number(k);
+        if (!number || !out.emplace(name, *number).second) return std::nullopt;
+      }
+    } while (t.is(k, ","));
+    if (!t.is(k, "}")) return std::nullopt;
+    i = k + 1;
+    return out;
+  }
+
+  /// 'B010010' at token k, moved behind: how S and T are also written.
+  static std::optional<double> binary(const Tokens& t, std::size_t& k) {
+    if (!t.is(k, "'") || !t.is_word(k + 1) || !t.is(k + 2, "'")) return std::nullopt;
+    const std::string word = t.lower(k + 1);
+    double out = 0.0;
+    for (const char c : word.substr(1)) out = 2.0 * out + (c == '1' ? 1.0 : 0.0);
+    if (word[0] != 'b' || word.find_first_not_of("01", 1) != std::string::npos) return std::nullopt;
+    k += 3;
+    return out;
+  }
+
+  static std::vector<Number> parts(const Aggregate& from, const std::array<const char*, 6>& names) {
+    std::vector<Number> out;
+    for (const char* const name : names)
+      if (const auto at = from.find(name); at != from.end()) out.push_back(at->second);
+    if (out.size() != names.size()) out.clear();
+    return out;
+  }
+
+  static Target target(const std::optional<Aggregate>& from) {
+    Target out;
+    if (from) {
+      if (auto pose = parts(*from, kPoseParts); !pose.empty()) {
+        out.written = {.notation = Notation::kZyx, .numbers = std::move(pose)};
+        out.configuration = configuration(*from);
+      } else if (auto axes = parts(*from, kAxisParts); !axes.empty()) {
+        out.written = {.notation = Notation::kJoints_deg, .numbers = std::move(axes)};
+      }
+    }
+    if (out.written.numbers.empty()) {
+      out.why = "it is not stated whole as plain numbers";
+      out.help = "state it as {X ...,Y ...,Z ...,A ...,B ...,C ...,S ...,T ...}";
+    }
+    return out;
+  }
+
+  /// T: bit i is set where axis i + 1 is negative. S: 1 with the wrist behind axis 1, 2 with it in
+  /// front of the lower arm; its third bit says of axis 5 what T says.
+  static Configuration configuration(const Aggregate& from) {
+    Configuration out;
+    const auto whole = [&](const char* name, int most) {
+      const auto at = from.find(name);
+      const double value = at == from.end() ? -1.0 : at->second.value;
+      return value >= 0.0 && value <= most ? static_cast<int>(value) : -1;
+    };
+    if (const int turn = whole("t", 63); turn >= 0)
+      for (int axis = 0; axis < 6; ++axis) {
+        const bool negative = (turn >> axis & 1) != 0;
+        out.ranges.push_back({axis, negative ? -720.0 : 0.0, negative ? 0.0 : 720.0});
+      }
+    if (const int status = whole("s", 31); status >= 0) {
+      out.front = (status & 1) == 0;
+      out.elbow_front = (status & 2) != 0;
+    }
+    return out;
+  }
+
+  static Frame frame_of(const std::optional<Aggregate>& from) {
+    if (!from) return {.X = {}, .why = "it is computed"};
+    const auto X = pose_of({.notation = Notation::kZyx, .numbers = parts(*from, kPoseParts)});
+    return {.X = X, .why = X ? "" : "it is not stated whole"};
+  }
+
+  static std::string number_name(const Aggregate& from, const char* name) {
+    if (from.contains("#tcp")) return "(the tool stands in the cell)";
+    const auto at = from.find(name);
+    return at == from.end() ? "default" : fmt::format("{:.0f}", at->second.value);
+  }
+
+  void declaration(const Tokens& t, std::size_t i) {
+    if (!t.is_word(i)) return;
+    const bool pose = t.is(i, "e6pos") || t.is(i, "pos") || t.is(i, "frame");
+    const bool axes = t.is(i, "e6axis") || t.is(i, "axis");
+    const bool indexed = t.is(i + 1, "[") && t.at(i + 2).kind == Token::Kind::kNumber &&
+                         t.is(i + 3, "]") && (t.is(i + 4, "=") || t.is(i + 4, ".")) && begins(t, i);
+    std::size_t k = i + 3;
+    if ((pose || axes) && t.is_word(i + 1) && t.is(i + 2, "=")) {
+      const auto value = aggregate(t, k);
+      names_.declare(t, i + 1, target(ends(t, k) ? value : std::nullopt));
+    } else if (t.is(i, "fdat") && t.is_word(i + 1) && t.is(i + 2, "=")) {
+      if (const auto value = aggregate(t, k)) fdat_[t.lower(i + 1)] = *value;
+    } else if (indexed && (t.is(i, "tool_data") || t.is(i, "base_data"))) {
+      Frames& frames = t.is(i, "tool_data") ? program_.tools : program_.frames;
+      k = i + 5;
+      const auto value = aggregate(t, k);
+      const auto [at, is_new] = frames.emplace(t.text(i + 2), frame_of(value));
+      if (!is_new) at->second = {.X = {}, .why = "it is set more than once"};
+    }
+  }
+
+  /// The order of the text: what tool and base are set, and the moves if `moves`.
+  void walk(const Tokens& t, bool moves) {
+    int depth = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (t.is(i, "def") || t.is(i, "deffct")) {
+        tool_.begin();
+        base_.begin();
+      }
+      if (begins(t, i)) {
+        for (const auto* word : {"if", "for", "while", "loop", "repeat", "switch"})
+          depth += t.is(i, word) ? 1 : 0;
+        for (const auto* word : {"endif", "endfor", "endwhile", "endloop", "until", "endswitch"})
+          depth -= t.is(i, word) && depth > 0 ? 1 : 0;
+      }
+      setting(t, i, depth > 0);
+      if (moves) move(t, i);
+    }
+  }
+
+  void setting(const Tokens& t, std::size_t i, bool inside) {
+    if (t.is(i, "bas") && t.is(i + 1, "(") && t.is(i + 2, "#") && t.is(i + 4, ",")) {
+      const bool number = t.at(i + 5).kind == Token::Kind::kNumber && t.is(i + 6, ")");
+      const std::string name = number ? std::string(t.text(i + 5)) : "(computed)";
+      if (t.is(i + 3, "tool")) tool_.set(name, inside);
+      if (t.is(i + 3, "base")) base_.set(name, inside);
+    }
+    if (!begins(t, i)) return;
+    if (t.is(i, "$tool") && t.is(i + 1, ".")) tool_.set("(computed)", inside);
+    if (t.is(i, "$base") && t.is(i + 1, ".")) base_.set("(computed)", inside);
+    if (!t.is(i + 1, "=")) return;
+    if (t.is(i, "$ipo_mode") && t.is(i + 3, "tcp"))
+      tool_.set("(the tool stands in the cell)", inside);
+    if (t.is(i, "fdat_act")) {
+      std::size_t k = i + 2;
+      const auto known = fdat_.find(t.lower(k));
+      const auto value = known != fdat_.end() ? known->second : aggregate(t, k);
+      tool_.set(value ? number_name(*value, "tool_no") : "(computed)", inside);
+      base_.set(value ? number_name(*value, "base_no") : "(computed)", inside);
+    }
+    if (t.is(i, "$tool")) tool_.set(stated(t, i + 2, "tool_data", program_.tools), inside);
+    if (t.is(i, "$base")) base_.set(stated(t, i + 2, "base_data", program_.frames), inside);
+  }
+
+  /// What stands behind "$TOOL=": TOOL_DATA[n], NULLFRAME, an aggregate, or STOOL2(FP1).
+  std::string stated(const Tokens& t, std::size_t i, const char* array, Frames& frames) const {
+    if (t.is(i, array) && t.is(i + 1, "[") && t.is(i + 3, "]") && !t.is(i + 4, ":") &&
+        t.at(i + 2).kind == Token::Kind::kNumber)
+      return std::string(t.text(i + 2));
+    if (t.is(i, "$nullframe") && !t.is(i + 1, ":")) return "0";
+    std::size_t k = i;
+    if (const auto value = aggregate(t, k); value && !t.is(k, ":")) {
+      const std::string name = t.quoted(i, k);
+      frames[name] = frame_of(value);
+      return name;
+    }
+    const bool call = t.is_word(i) && t.is(i + 1, "(");
+    if (const auto known = fdat_.find(t.lower(i + 2)); call && known != fdat_.end())
+      return number_name(known->second,
+                         std::string_view(array) == "tool_data" ? "tool_no" : "base_no");
+    return "(computed)";
+  }
+
+  void move(const Tokens& t, std::size_t i) {
+    if (!begins(t, i) || !t.is_word(i)) return;
+    std::string word = t.lower(i);
+    if (word.size() > 3 && word[0] == 's') word.erase(0, 1);
+    Move move{
+        .motion = Motion::kJoint, .tool = tool_.name(), .frame = base_.name(), .line = t.line(i)};
+    std::size_t k = i + 1;
+    if (word == "ptp_rel" || word == "lin_rel" || word == "circ_rel") {
+      move.target = listed(t, k, "it is relative to where the arm stands");
+      program_.moves.push_back(move);
+      return;
+    }
+    if (word != "ptp" && word != "lin" && word != "circ") return;
+    with_clause(t, k, move);
+    if (word == "lin") move.motion = Motion::kLinear;
+    if (word == "circ") move.motion = Motion::kVia;
+    move.target = goal(t, k);
+    program_.moves.push_back(move);
+    if (word != "circ" || !t.is(k, ",")) return;
+    move.motion = Motion::kCircleEnd;
+    move.target = goal(t, ++k);
+    program_.moves.push_back(move);
+  }
+
+  /// "SLIN XP1 WITH $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO)": of this move only.
+  void with_clause(const Tokens& t, std::size_t k, Move& move) {
+    for (; !ends(t, k) && !t.is(k, "with"); ++k) {
+    }
+    for (; !ends(t, k); ++k) {
+      if (!t.is(k + 1, "=")) continue;
+      if (t.is(k, "$tool")) move.tool = stated(t, k + 2, "tool_data", program_.tools);
+      if (t.is(k, "$base")) move.frame = stated(t, k + 2, "base_data", program_.frames);
+    }
+  }
+
+  int goal(const Tokens& t, std::size_t& k) {
+    const std::size_t begin = k;
+    const auto over = [&](std::size_t at) { return ends(t, at) || t.is(at, ",") || t.is_word(at); };
+    if (t.is_word(k) && over(k + 1))
+      if (const int known = names_.used(t, k); known >= 0) {
+        ++k;
+        return known;
+      }
+    if (const auto value = aggregate(t, k); value && over(k)) {
+      Target inline_one = target(value);
+      inline_one.name = "target of the move";
+      inline_one.source = t.source();
+      inline_one.line = t.line(begin);
+      program_.targets.push_back(inline_one);
+      return static_cast<int>(program_.targets.size()) - 1;
+    }
+    k = begin;
+    const bool name = t.is_word(k) && over(k + 1);
+    const int out =
+        name ? program_.list(std::string(t.text(begin)), t.source(), t.line(begin),
+                             "the program does not state it", "state it in the .dat file beside it")
+             : listed(t, begin, "it is computed while the program runs");
+    program_.targets[static_cast<std::size_t>(out)].missing = name;
+    int depth = 0;
+    for (; !ends(t, k) && !(depth == 0 && t.is(k, ",")); ++k) {
+      depth += t.is(k, "{") ? 1 : 0;
+      depth -= t.is(k, "}") ? 1 : 0;
+    }
+    return out;
+  }
+
+  int listed(const Tokens& t, std::size_t i, std::string why) {
+    std::size_t k = i;
+    while (!ends(t, k)) ++k;
+    return program_.list(t.quoted(i, k), t.source(), t.line(i), std::move(why),
+                         "state it as a target of its own, in the .src or the .dat file");
+  }
+
+  /// A fold may hold the aggregate of its move once more in its comment, and the editor makes the
+  /// move of it again: both are kept the same.
+  void copies() {
+    for (Target& target : program_.targets) {
+      if (target.written.numbers.empty()) continue;
+      const Tokens& t = comments_[target.source];
+      const std::string& bytes = program_.sources[target.source].bytes;
+      std::size_t first = bytes.size(), last = 0;
+      for (const Number& n : target.written.numbers) {
+        first = std::min(first, n.begin);
+        last = std::max(last, n.end);
+      }
+      const std::string_view own = std::string_view(bytes).substr(first, last - first);
+      const std::size_t i = t.first_from(first);
+      bool inside = false;  // walks back to the beginning of the fold
+      for (std::size_t k = i; k-- > 0 && !inside;) {
+        if (t.at(k).kind != Token::Kind::kComment) continue;
+        const std::string comment = t.lower(k);
+        if (comment.substr(0, 8) == ";endfold") break;
+        inside = comment.substr(0, 5) == ";fold";
+        const std::size_t at = t.text(k).find(own);
+        if (at == std::string_view::npos) continue;
+        for (Number n : target.written.numbers) {
+          n.end = t.at(k).begin + at + (n.end - first);
+          n.begin = t.at(k).begin + at + (n.begin - first);
+          target.copies.push_back(n);
+        }
+      }
+      if (!inside) target.copies.clear();
+    }
+  }
+
+  Program& program_;
+  Names names_;
+  std::vector<Tokens> files_, comments_;
+  std::map<std::string, Aggregate> fdat_;
+  CurrentFrame tool_{"default"}, base_{"default"};
+};
+
+}  // namespace
+
+void read_krl(Program& program) { KrlReader(program).read(); }
+
+/// Behind the lines with & and the line of DEF, DEFFCT or DEFDAT.
+std::size_t krl_comment_place(std::string_view bytes) {
+  std::size_t at = 0;
+  while (at < bytes.size()) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
+    const std::string line = lower_case(bytes.substr(at, end - at));
+    const std::size_t word = std::min(line.find_first_not_of(" \t"), line.size());
+    if (line.substr(word, 3) == "def" || line.substr(word, 10) == "global def") return end;
+    at = end;
+  }
+  return 0;
+}
+
+}  // namespace plumb::offline::programs
