@@ -54,10 +54,22 @@ class RapidReader {
         names_.spoil_all(fmt::format("{} in line {} moves all targets while the program runs",
                                      tokens_.text(i), tokens_.line(i)),
                          "put the displacement into a work object");
+    if (configuration_is_off())
+      for (Target& one : program_.targets) one.configuration = {};
     names_.look_for_mentions(tokens_);
   }
 
  private:
+  /// Behind ConfL \Off or ConfJ \Off the controller goes to the nearest joint positions, whatever a
+  /// target states.
+  bool configuration_is_off() const {
+    for (std::size_t i = 0; i + 2 < tokens_.size(); ++i)
+      if ((tokens_.is(i, "confl") || tokens_.is(i, "confj")) && tokens_.is(i + 1, "\\") &&
+          tokens_.is(i + 2, "off"))
+        return true;
+    return false;
+  }
+
   void declaration(std::size_t i) {
     const bool pose = tokens_.is(i, "robtarget"), joints = tokens_.is(i, "jointtarget");
     const bool tool = tokens_.is(i, "tooldata"), wobj = tokens_.is(i, "wobjdata");

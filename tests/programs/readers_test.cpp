@@ -87,6 +87,22 @@ TEST(Readers, SayWhyATrapIsNotTouched) {
             "PDispOn in line 4 moves all targets while the program runs");
 }
 
+/// The controller does not look at the configurations then, so nobody knows whether they hold.
+TEST(Readers, RapidConfigurationsThatAreSwitchedOffSayNothing) {
+  const std::string text =
+      "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "PROC main()\nMoveL p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+  for (const auto* const words : {"ConfL\\Off;", "ConfJ \\Off;"}) {
+    Program with{.sources = {{"m.mod", text}}}, without = with;
+    without.sources[0].bytes.insert(text.find("MoveL"), words);
+    read_rapid(with);
+    read_rapid(without);
+    EXPECT_EQ(named(with, "p").configuration.ranges.size(), 4U);
+    EXPECT_TRUE(named(without, "p").configuration.ranges.empty()) << words;
+    EXPECT_FALSE(named(without, "p").configuration.front) << words;
+  }
+}
+
 TEST(Readers, RapidTargetsHaveTheirNumbersConfigurationToolAndFrame) {
   const Program p = read_corpus("traps.mod");
   const Target& t = named(p, "good3");
