@@ -93,10 +93,9 @@ TEST(Readers, RapidConfigurationsThatAreSwitchedOffSayNothing) {
       "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
       "PROC main()\nMoveL p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
   for (const auto* const words : {"ConfL\\Off;", "ConfJ \\Off;"}) {
-    Program with{.sources = {{"m.mod", text}}}, without = with;
-    without.sources[0].bytes.insert(text.find("MoveL"), words);
-    read_rapid(with);
-    read_rapid(without);
+    std::string other = text;
+    other.insert(text.find("MoveL"), words);
+    const Program with = read_bytes("m.mod", text), without = read_bytes("m.mod", other);
     EXPECT_EQ(named(with, "p").configuration.ranges.size(), 4U);
     EXPECT_TRUE(named(without, "p").configuration.ranges.empty()) << words;
     EXPECT_FALSE(named(without, "p").configuration.front) << words;
