@@ -47,6 +47,18 @@ std::pair<bool, bool> drawn(const Joints& q) {
   return {wrist_x > 0.0, uz * wx - ux * wz > 0.0};
 }
 
+/// As a RAPID target states it: quarter turns, the side of axis 5, wrist and elbow.
+Configuration configuration_of(const Joints& q) {
+  const auto [front, elbow] = drawn(q);
+  Configuration out{.ranges = {}, .front = front, .elbow_front = elbow};
+  for (const int axis : {0, 3, 5}) {
+    const double quarter = std::floor(q[static_cast<std::size_t>(axis)] / (90.0 * kDeg));
+    out.ranges.push_back({axis, 90.0 * quarter, 90.0 * (quarter + 1.0)});
+  }
+  out.ranges.push_back({4, q[4] < 0.0 ? -360.0 : 0.0, q[4] < 0.0 ? 0.0 : 360.0});
+  return out;
+}
+
 Joints random_joints(std::mt19937_64& random, const format::Chain& arm) {
   Joints q;
   for (const auto& joint : arm.joints)
@@ -65,13 +77,7 @@ TEST(JointSolutions, TheConfigurationOfATargetSaysWhichOneIsMeant) {
     const Joints q = random_joints(random, arm);
     if (std::abs(q[4]) < 0.05) continue;
     ++used;
-    const auto [front, elbow] = drawn(q);
-    Configuration said{.ranges = {}, .front = front, .elbow_front = elbow};
-    for (const int axis : {0, 3, 5}) {
-      const double quarter = std::floor(q[static_cast<std::size_t>(axis)] / (90.0 * kDeg));
-      said.ranges.push_back({axis, 90.0 * quarter, 90.0 * (quarter + 1.0)});
-    }
-    said.ranges.push_back({4, q[4] < 0.0 ? -360.0 : 0.0, q[4] < 0.0 ? 0.0 : 360.0});
+    const Configuration said = configuration_of(q);
     EXPECT_TRUE(solutions.agrees(said, q));
     const auto answer = solutions.find(chain.forward(q), said, {});
     if (answer.q.empty()) continue;
@@ -83,6 +89,30 @@ TEST(JointSolutions, TheConfigurationOfATargetSaysWhichOneIsMeant) {
               used - found - wrong);
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(found, used * 9 / 10);
+}
+
+/// Where the arm was before makes the search short and never changes what is found.
+TEST(JointSolutions, TheConfigurationDecidesWhereverTheArmWasBefore) {
+  const format::Chain arm = heavy_arm();
+  const JointSolutions solutions(arm);
+  const Chain chain(arm);
+  std::mt19937_64 random(13);
+  int found = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Joints q = random_joints(random, arm), elsewhere = random_joints(random, arm);
+    if (std::abs(q[4]) < 0.05) continue;
+    const Configuration said = configuration_of(q);
+    const auto alone = solutions.find(chain.forward(q), said, {});
+    Joints beside = q;
+    for (double& value : beside) value += 0.1;
+    for (const Joints& last : {elsewhere, beside}) {
+      const auto after = solutions.find(chain.forward(q), said, last);
+      if (alone.q.empty() || after.q.empty()) continue;
+      ++found;
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(after.q[i], alone.q[i], 1e-6) << k;
+    }
+  }
+  EXPECT_GT(found, 80);
 }
 
 TEST(JointSolutions, WithoutAConfigurationTheNearestOneIsTakenAndWithoutAnyNone) {
