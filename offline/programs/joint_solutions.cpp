@@ -21,7 +21,9 @@ constexpr double kStep_rad = 0.5;  // the longest
 constexpr double kSame_rad = 1e-5;
 constexpr double kReached = 1e-10;    // [m] and [rad]
 constexpr double kBeyond_rad = 1e-6;  // a solution on a joint limit is within it
-constexpr double kClearly = 0.7;      // the nearest solution is taken if it is this much nearer
+constexpr double kClearly = 0.7;      // the nearest solution is taken if it is this much nearer,
+// and no farther than a third of the half turn by which the other one of a wrist differs.
+constexpr double kNear_rad = 60.0 * kDegree;
 
 double distance(const Joints& a, const Joints& b) {
   double out = 0.0;
@@ -220,14 +222,27 @@ JointSolutions::Answer JointSolutions::find(const Transformd& X_BT, const Config
                 "compare its tool, its frame and the joint limits in cell.toml with the "
                 "controller"};
   if (left.size() == 1) return {.q = left.front(), .why = "", .help = ""};
+  const bool behind =
+      arm_->joints.size() == 6 &&
+      std::any_of(left.begin(), left.end(), [&](const Joints& q) { return !posture(q).front; });
+  if (wanted.elbow_front && behind)
+    return {.q = {},
+            .why =
+                "its wrist is behind axis 1, where the elbow that it states is not read, and "
+                "several joint positions reach it",
+            .help = "move to joints instead, or turn the arm so that the wrist is in front"};
   const auto far = [&](const Joints& q) { return last.empty() ? 0.0 : distance(q, last); };
   std::sort(left.begin(), left.end(),
             [&](const Joints& a, const Joints& b) { return far(a) < far(b); });
-  if (!last.empty() && far(left[0]) < kClearly * far(left[1]))
+  if (!last.empty() && far(left[0]) < kNear_rad && far(left[0]) < kClearly * far(left[1]))
     return {.q = left.front(), .why = "", .help = ""};
   return {.q = {},
-          .why = "several joint positions reach it, and which is meant is not known",
-          .help = "say where the joints are before the first move: --start 0,-90,90,0,90,0"};
+          .why = last.empty() || far(left[0]) < kNear_rad
+                     ? "several joint positions reach it, and which is meant is not known"
+                     : "several joint positions reach it, and none is near where the arm was",
+          .help =
+              "move to a target of joints before it, or say where the joints are before the "
+              "first move: --start 0,-90,90,0,90,0"};
 }
 
 }  // namespace plumb::offline::programs

@@ -27,8 +27,8 @@ class JointSolutions {
     std::string help;
   };
 
-  /// The solution that the configuration leaves; of several the one that is clearly nearest to
-  /// `last` (may be empty), where the arm was before.
+  /// The solution that the configuration leaves; of several the one that is near `last` (may be
+  /// empty), where the arm was before, and clearly nearest to it.
   ///
   /// Solutions are searched for from many starting points by Newton's method, within the joint
   /// limits. Cost: some milliseconds; some 20 us where the configuration tells wrist and elbow and

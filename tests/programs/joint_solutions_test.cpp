@@ -134,6 +134,37 @@ TEST(JointSolutions, WithoutAConfigurationTheNearestOneIsTakenAndWithoutAnyNone)
   EXPECT_EQ(undecided, 30) << "the wrist alone always has two ways";
 }
 
+TEST(JointSolutions, WhatIsNearestButFarIsNotTaken) {
+  const format::Chain arm = heavy_arm();
+  const JointSolutions solutions(arm);
+  const Joints q{0.1, 0.2, 0.9, 0.3, 0.7, 0.4};
+  for (const double turn_deg : {50.0, 70.0}) {
+    Joints last = q;
+    last[0] += turn_deg * kDeg;
+    const auto answer = solutions.find(Chain(arm).forward(q), {}, last);
+    EXPECT_EQ(answer.q.empty(), turn_deg > 60.0);
+    if (turn_deg > 60.0)
+      EXPECT_NE(answer.why.find("none is near"), std::string::npos) << answer.why;
+    else
+      EXPECT_NEAR(answer.q.at(0), q[0], 1e-6);
+  }
+}
+
+/// The program states the elbow, and behind axis 1 it is not read: the nearest may be the other
+/// one.
+TEST(JointSolutions, BehindAxis1WhereTheElbowIsNotReadSeveralAreNoAnswer) {
+  const format::Chain arm = heavy_arm();
+  const JointSolutions solutions(arm);
+  const Joints q{0.1, -1.0, 0.6, 0.3, 0.7, 0.4};
+  ASSERT_FALSE(drawn(q).first);
+  const Transformd X = Chain(arm).forward(q);
+  const auto stated =
+      solutions.find(X, {.ranges = {}, .front = false, .elbow_front = drawn(q).second}, q);
+  EXPECT_TRUE(stated.q.empty());
+  EXPECT_NE(stated.why.find("behind axis 1"), std::string::npos) << stated.why;
+  EXPECT_FALSE(solutions.find(X, {.ranges = {}, .front = false, .elbow_front = {}}, q).q.empty());
+}
+
 TEST(JointSolutions, APoseOutOfReachOrAConfigurationThatNoneHasGivesNoJoints) {
   const format::Chain arm = heavy_arm();
   const JointSolutions solutions(arm);
