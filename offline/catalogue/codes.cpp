@@ -75,6 +75,10 @@ constexpr Explanation kCodes[] = {
     {"N-FILTER-DIGITS",
      "Targets are written with as many decimals as the program has, and these leave a part of the "
      "corrections out. --decimals writes more, if the controller reads them."},
+    {"W-FILTER-EMPTY",
+     "Nothing of a robot program is found in the file, so that it is written as it was. If it has "
+     "targets, its lines may end as no controller ends them (a carriage return alone), or it is in "
+     "another language than the ending of its name says."},
     {"W-FILTER-TOOL",
      "The program moves another tool than that of the model. Both poses are counted from the "
      "flange; if the model's Denavit-Hartenberg rows end in a flange that is turned or moved "

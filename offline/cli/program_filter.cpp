@@ -89,21 +89,24 @@ class ProgramFilter::One {
   void go(const Move& move) {
     if (const Joints near = owner_.solutions_.of_controller(move.joints_deg); !near.empty())
       last_ = near;
-    if (move.target < 0) return;
+    if (move.target < 0) return last_.clear();
     const auto t = static_cast<std::size_t>(move.target);
     if (!done_[t].seen) look(t);
-    if (!done_[t].q.empty()) last_ = done_[t].q;
+    last_ = done_[t].q;  // none: where the arm is now is not known
   }
 
   void look(std::size_t t) {
     done_[t].seen = true;
     const Target& target = program_.targets[t];
     const bool joints = of_joints(target.written.notation);
-    if (joints) done_[t].q = joints_of(target.written);
+    if (joints && target.why.empty()) done_[t].q = joints_of(target.written);
     if (joints && !owner_.settings_.joint_targets && !target.written.numbers.empty())
       ++out_.joint_targets;
     else if (!target.why.empty())
       leave(target, target.why, target.help);
+    else if (target.external_axes && !owner_.settings_.robot_stands)
+      leave(target, "it moves an external axis, which may carry the robot or the work",
+            "if none does: --robot-stands");
     else if (joints)
       correct_joints(target, done_[t]);
     else
@@ -133,16 +136,22 @@ class ProgramFilter::One {
   /// The pose of a tool or frame by its name; null and listed if it is not known.
   const Transformd* frame(const char* what, const std::string& name, const programs::Frames& given,
                           const programs::Frames& stated, const Target& target) {
-    const auto option = given.find(programs::lower_case(name));
-    if (option != given.end()) return &*option->second.X;
-    const auto at = stated.find(name);
-    if (at != stated.end() && at->second.X) return &*at->second.X;
     const bool tool = std::string_view(what) == "tool";
     if (name.empty() || name[0] == '(') {
       leave(target, fmt::format("its {} is not known: {}", what, name.empty() ? "none" : name),
             fmt::format("name the {} in the move, and state it as plain numbers", what));
       return nullptr;
     }
+    auto at = stated.find(name);
+    if (const auto all = stated.find(programs::kAllFrames); all != stated.end()) at = all;
+    if (at != stated.end() && at->second.moving) {
+      leave(target, fmt::format("its {} '{}' is not known: {}", what, name, at->second.why),
+            fmt::format("move it with a {} that stays the same in all of the program", what));
+      return nullptr;
+    }
+    const auto option = given.find(programs::lower_case(name));
+    if (option != given.end()) return &*option->second.X;
+    if (at != stated.end() && at->second.X) return &*at->second.X;
     const bool spoilt = at != stated.end() && !at->second.why.empty();
     const std::string form = tool ? "=X,Y,Z,RX,RY,RZ or =model" : "=X,Y,Z,RX,RY,RZ";
     leave(

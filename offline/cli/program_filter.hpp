@@ -16,6 +16,7 @@ struct FilterSettings {
   programs::Frames tools, frames;  // they count before what the programs state
   std::vector<double> start;       // joints before the first target [rad] or [m], or none
   bool joint_targets = false;      // these are corrected too
+  bool robot_stands = false;       // external axes do not carry it
   int least_decimals = 0;          // of a millimetre
   programs::Mark mark;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -20,7 +21,6 @@
 #include "program/file.hpp"
 #include "program/printable.hpp"
 #include "programs/lexer.hpp"
-#include "programs/settle.hpp"
 #include "show/table.hpp"
 #include "show/units.hpp"
 
@@ -37,7 +37,7 @@ struct FilterArguments {
   std::vector<std::string> programs, tools, frames;
   std::string model, folder = "filtered";
   std::optional<std::string> start;
-  bool joint_targets = false;
+  bool joint_targets = false, robot_stands = false;
   int decimals = 0;
   WriteOptions write;
 };
@@ -84,8 +84,14 @@ fs::path data_file(const fs::path& file, const Language& language) {
   return {};
 }
 
-std::vector<Work> open_programs(const FilterArguments& options, Outcome& outcome) {
-  std::vector<Work> out;
+/// The files of one program.
+struct Opened {
+  const Language* language;
+  std::vector<programs::Source> sources;
+};
+
+std::vector<Opened> open_programs(const FilterArguments& options, Outcome& outcome) {
+  std::vector<Opened> out;
   std::set<std::string> read;
   std::vector<std::string> order = options.programs;
   // What has a data file of its own comes first, and takes it along.
@@ -104,31 +110,44 @@ std::vector<Work> open_programs(const FilterArguments& options, Outcome& outcome
     if (const fs::path data = data_file(file, *language); !data.empty())
       if (read.insert(fs::weakly_canonical(data).string()).second)
         sources.push_back(open_program(data.string(), outcome));
-    out.push_back({language, programs::read_program(*language, std::move(sources))});
+    out.push_back({language, std::move(sources)});
   }
   return out;
 }
 
-/// What one program states of tools and frames holds for all in its language; what two state
-/// differently is not known.
-void share(std::vector<Work>& all, programs::Frames programs::Program::*which) {
-  for (const Work& from : all)
-    for (Work& to : all)
-      if (&from != &to && from.language == to.language)
-        for (const auto& [name, frame] : from.program.*which) {
-          const auto [at, is_new] = (to.program.*which).emplace(name, frame);
-          const auto& own = at->second;
-          if (is_new || (own.X && frame.X && own.X->p == frame.X->p && own.X->R == frame.X->R))
-            continue;
-          at->second = {.X = {}, .why = "the programs state it differently, or one changes it"};
-        }
+/// The programs in the order in which they were given; those of one language are read together.
+std::vector<Work> read_all(std::vector<Opened> opened) {
+  std::vector<Work> out;
+  std::map<const Language*, std::vector<std::vector<programs::Source>>> sources;
+  for (Opened& one : opened) {
+    out.push_back({.language = one.language, .program = {}});
+    sources[one.language].push_back(std::move(one.sources));
+  }
+  for (auto& [language, own] : sources) {
+    auto programs = programs::read_programs(*language, std::move(own));
+    auto next = programs.begin();
+    for (Work& work : out)
+      if (work.language == language) work.program = std::move(*next++);
+  }
+  return out;
 }
 
 fs::path output_of(const FilterArguments& options, const std::string& file) {
   return fs::path(options.folder) / fs::path(file).filename();
 }
 
+void refuse_no_folder(const fs::path& folder) {
+  fs::path there = folder;  // the part of it that exists
+  while (!there.empty() && !fs::exists(there)) there = there.parent_path();
+  if (there.empty() || fs::is_directory(there)) return;
+  throw Failure(Exit::kUsage,
+                {.code = "E-USAGE",
+                 .message = fmt::format("{} is a file, and a folder is meant", there.string()),
+                 .help = "name a folder of the filtered programs: -o filtered"});
+}
+
 OutputFiles outputs(const FilterArguments& options, const std::vector<Work>& all) {
+  refuse_no_folder(options.folder);
   OutputFiles out(options.folder);
   std::set<std::string> names;
   for (const Work& work : all)
@@ -248,6 +267,14 @@ void remark_all(const std::vector<Work>& all, const Sum& sum, Outcome& outcome) 
                                 "the flange of the model is that of the controller",
                                 printable_line(tool)),
          .help = "compare both at one pose: plumb explain W-FILTER-TOOL"});
+  for (const Work& work : all)
+    if (work.program.states_nothing)
+      outcome.remarks.push_back(
+          {.severity = Severity::kWarning,
+           .code = "W-FILTER-EMPTY",
+           .message = "no target, no move, no tool and no frame is found in it",
+           .place = Place{.file = work.program.sources[0].file, .line = 0},
+           .help = "if it has targets: plumb explain W-FILTER-EMPTY"});
   if (sum.rounding_m > kCoarse_m)
     outcome.remarks.push_back(
         {.severity = Severity::kNote,
@@ -268,16 +295,11 @@ void filter(const FilterArguments& options, const Globals& globals, Outcome& out
       .frames = given_frames("--frame", options.frames, nullptr),
       .start = start_of(options.start, model.nominal),
       .joint_targets = options.joint_targets,
+      .robot_stands = options.robot_stands,
       .least_decimals = options.decimals,
       .mark = {.model = model.cell_name, .sha256 = outcome.inputs.back().sha256}};
-  std::vector<Work> all = open_programs(options, outcome);
-  share(all, &programs::Program::tools);
-  share(all, &programs::Program::frames);
-  if (!options.write.dry_run) outputs(options, all).check(options.write, outcome);
-  for (Work& one : all)
-    for (const Work& other : all)
-      if (&one != &other && one.language == other.language)
-        programs::settle_between(one.program, other.program);
+  std::vector<Work> all = read_all(open_programs(options, outcome));
+  outputs(options, all).check(options.write, outcome);
   ProgramFilter work(model, std::move(settings));
   for (Work& one : all) {
     const Progress progress("correcting the targets of " + one.program.sources[0].file);
@@ -344,6 +366,8 @@ void add_filter(plumb::Program& program) {
                   "Joints before the first target [deg, mm], where no configuration is stated")
       .type_name("Q1,Q2,...");
   verb.add_flag("--joint-targets", options->joint_targets, "Correct targets of joints too");
+  verb.add_flag("--robot-stands", options->robot_stands,
+                "External axes carry neither the robot nor the work");
   verb.add_option(
           "--decimals", options->decimals,
           "Write at least so many decimals of a millimetre; else as many as the program has")

@@ -3,38 +3,79 @@
 
 #include <set>
 #include <string>
-#include <utility>
+#include <vector>
+
+#include "programs/program.hpp"
 
 namespace plumb::offline::programs {
 
-/// The tool or frame that statements in the text have set so far. Where it is set inside a loop or
-/// a condition, the order of the text is not that of the motion: then it is known only if all
-/// statements say the same. The text is walked twice, with decide() between.
+/// Which tool and frame are in force at each move of a file, so far as its text says for sure. A
+/// reader tells what it meets, in the order of the text; names() then judges. In force is what a
+/// statement before the move set in the same routine; at the beginning of each, "default". But
+///   * a condition or loop that sets another one makes it unknown behind its end, and a loop from
+///     its beginning on;
+///   * so does a call of a routine that sets one, directly or through others;
+///   * a thread or an interrupt that sets one makes it unknown in the whole file;
+///   * in a routine with jumps it is known only if all statements set the same, and one of them
+///     stands before everything else.
+/// What is unknown has a name in parentheses that says why.
 class CurrentFrame {
  public:
-  /// `unset`: the name before any statement, and at the beginning of a routine.
-  explicit CurrentFrame(std::string unset) : unset_(unset), name_(std::move(unset)) {}
+  enum class What { kTool, kFrame };
 
-  void set(const std::string& name, bool inside_block) {
-    said_.insert(name);
-    (inside_block ? in_block_ : outside_) = true;
-    name_ = name;
-  }
+  void routine(const std::string& name, bool any_time = false);  // any_time: beside the moves
+  void end_routine();
+  void block(bool loop);
+  void branch();  // ELSE, CASE: where the innermost block began
+  void end_block();
+  void end();  // of whichever is innermost
+  void set(What what, std::string name);
+  void call(const std::string& name, bool any_time = false);
+  void label();
+  void jump();
+  std::size_t move();  // counts the moves from 0
 
-  void begin() { name_ = unset_; }
+  /// What routines do, for all programs.
+  void report(Facts& facts) const;
 
-  void decide() {
-    if (in_block_)
-      only_ = outside_ && said_.size() == 1 ? *said_.begin() : "(set in a loop or a condition)";
-    name_ = unset_;
-  }
-
-  std::string name() const { return only_.empty() ? name_ : only_; }
+  /// The tool or the frame of each move.
+  std::vector<std::string> names(What what, const Facts& around) const;
 
  private:
-  std::string unset_, name_, only_;
-  std::set<std::string> said_;
-  bool in_block_ = false, outside_ = false;
+  enum class Kind {
+    kRoutine,
+    kEndRoutine,
+    kBlock,
+    kLoop,
+    kBranch,
+    kEnd,
+    kSet,
+    kCall,
+    kLabel,
+    kMove
+  };
+  struct Step {
+    Kind kind;
+    What what = What::kTool;
+    std::string name = {};
+    std::size_t end = static_cast<std::size_t>(-1);  // of a routine or block: its last step
+    bool jumps = false;
+  };
+
+  bool inside_block() const {
+    return !open_.empty() && steps_[open_.back()].kind != Kind::kRoutine;
+  }
+  const std::string& routine_name() const;
+  void close(Kind kind);
+  std::string set_to(const Step& step, What what, const Facts& around) const;
+  bool differs(std::size_t begin, const std::string& from, What what, const Facts& around) const;
+  bool passed_by(std::size_t begin, What what, const Facts& around) const;
+
+  std::vector<Step> steps_;
+  std::vector<std::size_t> open_;  // routines and blocks around
+  std::set<std::string> any_time_;
+  Facts own_;
+  std::size_t moves_ = 0;
 };
 
 }  // namespace plumb::offline::programs

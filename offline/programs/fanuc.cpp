@@ -6,7 +6,7 @@
 #include <map>
 
 #include "programs/languages.hpp"
-#include "programs/lexer.hpp"
+#include "programs/names.hpp"
 
 /// Fanuc LS, the text form of a teach pendant program: statements behind /MN, positions behind
 /// /POS: P[1]{ GP1: UF : 1, UT : 1, CONFIG : 'N U T, 0, 0, 0', X = 1.0 mm, ... W = 0.0 deg, ... };
@@ -18,8 +18,9 @@ constexpr std::array kPose{"x", "y", "z", "w", "p", "r"};
 
 class FanucReader {
  public:
-  explicit FanucReader(Program& program)
+  FanucReader(Program& program, const Facts& around)
       : program_(program),
+        around_(around),
         tokens_(
             program.sources[0], 0,
             {.comments = {"!", "//", "--"}, .quote = '\'', .only_first = true, .labels = true}) {
@@ -29,6 +30,7 @@ class FanucReader {
   void read() {
     program_.tools["0"].X = Transformd();
     program_.frames["0"].X = Transformd();
+    attributes();
     std::size_t begin = section("mn"), positions = section("pos");
     for (std::size_t i = positions; i < tokens_.size(); ++i)
       if (line_begins(i) && is_position(i) && tokens_.is(i + 4, "{")) position(i);
@@ -39,9 +41,22 @@ class FanucReader {
       statement(from, std::min(i, tokens_.size()));
       from = i + 1;
     }
+    for (Target& target : program_.targets)
+      spoil(target, own_, "state them in a program that does not follow a line");
+    Names(program_).look_elsewhere(around_);
   }
 
  private:
+  /// A program that follows a line: "LINE_TRACK_SCHEDULE_NUMBER : 1;".
+  void attributes() {
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      std::size_t k = i + 2;
+      if (!tokens_.is(i, "line_track_schedule_number") || !tokens_.is(i + 1, ":")) continue;
+      if (const auto number = tokens_.number(k); !number || number->value != 0.0)
+        own_ = fmt::format("line {} moves all targets with a conveyor", tokens_.line(i));
+    }
+  }
+
   bool line_begins(std::size_t i) const {
     return i == 0 || tokens_.at(i - 1).kind == Token::Kind::kLine;
   }
@@ -81,6 +96,8 @@ class FanucReader {
       if (const auto number = tokens_.number(n)) found.emplace(tokens_.lower(k), *number);
     }
     fill(target, found);
+    for (int axis = 1; axis <= 9; ++axis)
+      target.external_axes = target.external_axes || found.contains(fmt::format("e{}", axis));
     const auto index = static_cast<int>(program_.targets.size());
     if (!index_.emplace(tokens_.text(i + 2), index).second) {
       target.why = "the program states it more than once";
@@ -106,32 +123,23 @@ class FanucReader {
     target.help = "teach it on the controller, and take the file anew";
   }
 
-  /// 'N U T, 0, 0, 0': F where axis 5 is positive, U with the elbow above, T with the wrist in
-  /// front of axis 1, then the turns of axes 1, 4 and 6: 0 is -180 to 180 deg.
+  /// 'N U T, 0, 0, 0': U with the elbow above, T with the wrist in front of axis 1. What N and F
+  /// and the three turns say of which axis is not read: no public source says it for sure.
   static Configuration configuration(const std::string& text) {
     Configuration out;
-    std::vector<int> turns;
-    bool known = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      const char c = text[i];
-      if (c == 'n') out.ranges.push_back({4, -360.0, 0.0});
-      if (c == 'f') out.ranges.push_back({4, 0.0, 360.0});
+    for (const char c : text.substr(0, text.find(','))) {
       if (c == 't' || c == 'b') out.front = c == 't';
       if (c == 'u' || c == 'd') out.elbow_front = c == 'u';
-      known = known || c == ',';
-      const bool digit = c >= '0' && c <= '9';
-      if (known && digit && turns.size() < 3)
-        turns.push_back(text[i - 1] == '-' ? '0' - c : c - '0');
     }
-    constexpr int kAxes[] = {0, 3, 5};
-    for (std::size_t k = 0; k < turns.size(); ++k)
-      out.ranges.push_back({kAxes[k], 360.0 * turns[k] - 180.0, 360.0 * turns[k] + 180.0});
     return out;
   }
 
   void spoil(int index, const std::string& why, const std::string& help) {
-    Target& target = program_.targets[static_cast<std::size_t>(index)];
-    if (!target.why.empty()) return;
+    spoil(program_.targets[static_cast<std::size_t>(index)], why, help);
+  }
+
+  static void spoil(Target& target, const std::string& why, const std::string& help) {
+    if (!target.why.empty() || why.empty()) return;
     target.why = why;
     target.help = help;
   }
@@ -144,7 +152,9 @@ class FanucReader {
     const bool circle = tokens_.is(i, "c") || tokens_.is(i, "a");
     const bool goes = joint || line || circle;
     if (!goes || !(tokens_.is(i + 1, "p") || tokens_.is(i + 1, "pr"))) return other(i, to);
-    Move move{.motion = joint ? Motion::kJoint : Motion::kLinear, .line = tokens_.line(i)};
+    Move move{.motion = joint ? Motion::kJoint : Motion::kLinear,
+              .line = tokens_.line(i),
+              .configured = true};
     if (circle) move.motion = tokens_.is(i, "c") ? Motion::kVia : Motion::kCircleEnd;
     bool first = true;
     for (std::size_t k = i + 1; k < to; ++k) {
@@ -193,22 +203,58 @@ class FanucReader {
               at->second,
               fmt::format("line {} uses it for something else than a move to it", tokens_.line(k)),
               "give the moves a position that nothing else reads or changes");
-      const bool tool = tokens_.is(k, "utool"), frame = tokens_.is(k, "uframe");
-      if (!(tool || frame) || !tokens_.is(k + 1, "[") || !tokens_.is(k + 3, "]")) continue;
-      if (tokens_.is(k + 4, "="))
-        (tool ? program_.tools : program_.frames)[std::string(tokens_.text(k + 2))] = {
-            .X = {}, .why = fmt::format("line {} sets it from a register", tokens_.line(k))};
+      changed_frame(k, to);
     }
+    displacement(from, to);
+  }
+
+  /// "UTOOL[2]=PR[9]", or of a register's number "UTOOL[R[1]]=PR[9]".
+  void changed_frame(std::size_t k, std::size_t to) {
+    const bool tool = tokens_.is(k, "utool") || tokens_.is(k, "$mnutool");
+    const bool frame = tokens_.is(k, "uframe") || tokens_.is(k, "$mnuframe");
+    if (!(tool || frame) || !tokens_.is(k + 1, "[")) return;
+    const bool number = tokens_.at(k + 2).kind == Token::Kind::kNumber && tokens_.is(k + 3, "]");
+    bool set = false;
+    for (std::size_t i = k + 1; i < to; ++i) set = set || tokens_.is(i, "=");
+    if (!set) return;
+    const std::string name = number ? std::string(tokens_.text(k + 2)) : kAllFrames;
+    (tool ? program_.tools : program_.frames)[name] = {
+        .X = {},
+        .why = fmt::format("line {} changes it while the program runs", tokens_.line(k)),
+        .moving = true};
+  }
+
+  /// Statements that move the targets of the moves behind them: of this program, or also of those
+  /// that it calls.
+  void displacement(std::size_t from, std::size_t to) {
+    std::size_t i = from;
+    while (i < to && !tokens_.is_word(i)) ++i;
+    const bool ends = tokens_.is(i + 1, "end");
+    const auto next = [&](const char* word) {
+      for (std::size_t k = i + 1; k < to; ++k)
+        if (tokens_.is(k, word)) return true;
+      return false;
+    };
+    const bool touch = tokens_.is(i, "touch") && tokens_.is(i + 1, "offset");
+    const bool passes = tokens_.is(i, "mp") && tokens_.is(i + 1, "offset");
+    const bool conditions = (tokens_.is(i, "offset") || tokens_.is(i, "tool_offset") ||
+                             tokens_.is(i, "voffset") || tokens_.is(i, "tool")) &&
+                            next("condition");
+    if (touch || passes || conditions || (tokens_.is(i, "track") && !ends) ||
+        tokens_.is(i, "softfloat"))
+      Names(program_).displace(tokens_, i);
   }
 
   Program& program_;
+  const Facts& around_;
   Tokens tokens_;
   std::map<std::string, int, std::less<>> index_;
+  std::string own_;  // why no target of this program may be touched, or empty
 };
 
 }  // namespace
 
-void read_fanuc(Program& program) { FanucReader(program).read(); }
+void read_fanuc(Program& program, const Facts& around) { FanucReader(program, around).read(); }
 
 /// Behind the line "/MN".
 std::size_t fanuc_comment_place(std::string_view bytes) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 
 #include "programs/current_frame.hpp"
@@ -24,7 +25,8 @@ using Aggregate = std::map<std::string, Number>;
 
 class KrlReader {
  public:
-  explicit KrlReader(Program& program) : program_(program), names_(program) {
+  KrlReader(Program& program, const Facts& around)
+      : program_(program), around_(around), names_(program) {
     for (std::size_t s = 0; s < program.sources.size(); ++s)
       files_.emplace_back(program.sources[s], s, Lexis{.comments = {";", "&"}});
   }
@@ -36,12 +38,16 @@ class KrlReader {
       file.drop_comments(false);
       for (std::size_t i = 0; i < file.size(); ++i) declaration(file, i);
     }
-    for (Tokens& file : files_) {
-      walk(file, false);
-      tool_.decide();
-      base_.decide();
-      walk(file, true);
+    for (const Tokens& file : files_) walk(file);
+    flow_.report(program_.facts);
+    const auto tools = flow_.names(CurrentFrame::What::kTool, around_);
+    const auto bases = flow_.names(CurrentFrame::What::kFrame, around_);
+    for (std::size_t m = 0; m < program_.moves.size(); ++m) {
+      Move& move = program_.moves[m];
+      if (move.tool.empty()) move.tool = tools[m];
+      if (move.frame.empty()) move.frame = bases[m];
     }
+    names_.look_elsewhere(around_);
     for (const Tokens& file : files_) names_.look_for_mentions(file);
     copies();
   }
@@ -52,6 +58,10 @@ class KrlReader {
   }
   static bool ends(const Tokens& t, std::size_t i) {
     return t.ended(i) || t.at(i).kind == Token::Kind::kLine;
+  }
+
+  static bool external(const std::string& part) {
+    return part.size() == 2 && part[0] == 'e' && part[1] >= '1' && part[1] <= '6';
   }
 
   /// {X 1, Y 2} or {E6POS: X 1, Y 2} at token i, moved behind; other words as values are left out.
@@ -71,6 +81,7 @@ class KrlReader {
         if (t.is(k + 1, "tcp")) out["#tcp"] = {};
         k += 2;
       } else if (t.is_word(k) || t.at(k).kind == Token::Kind::kText) {
+        if (external(name)) out[name].value = 1.0;  // wherever it is
         ++k;  // left out, so that a position with such a part is not whole
       } else {
         const auto number = t.number(k);
@@ -110,6 +121,8 @@ class KrlReader {
       } else if (auto axes = parts(*from, kAxisParts); !axes.empty()) {
         out.written = {.notation = Notation::kJoints_deg, .numbers = std::move(axes)};
       }
+      for (const auto& [part, number] : *from)
+        out.external_axes = out.external_axes || (external(part) && number.value != 0.0);
     }
     if (out.written.numbers.empty()) {
       out.why = "it is not stated whole as plain numbers";
@@ -155,64 +168,154 @@ class KrlReader {
     if (!t.is_word(i)) return;
     const bool pose = t.is(i, "e6pos") || t.is(i, "pos") || t.is(i, "frame");
     const bool axes = t.is(i, "e6axis") || t.is(i, "axis");
-    const bool indexed = t.is(i + 1, "[") && t.at(i + 2).kind == Token::Kind::kNumber &&
-                         t.is(i + 3, "]") && (t.is(i + 4, "=") || t.is(i + 4, ".")) && begins(t, i);
     std::size_t k = i + 3;
     if ((pose || axes) && t.is_word(i + 1) && t.is(i + 2, "=")) {
       const auto value = aggregate(t, k);
       names_.declare(t, i + 1, target(ends(t, k) ? value : std::nullopt));
     } else if (t.is(i, "fdat") && t.is_word(i + 1) && t.is(i + 2, "=")) {
-      if (const auto value = aggregate(t, k)) fdat_[t.lower(i + 1)] = *value;
-    } else if (indexed && (t.is(i, "tool_data") || t.is(i, "base_data"))) {
-      Frames& frames = t.is(i, "tool_data") ? program_.tools : program_.frames;
-      k = i + 5;
       const auto value = aggregate(t, k);
-      const auto [at, is_new] = frames.emplace(t.text(i + 2), frame_of(value));
-      if (!is_new) at->second = {.X = {}, .why = "it is set more than once"};
+      const bool changes = around_.assigned.contains(t.lower(i + 1)) || !ends(t, k);
+      if (value && !changes) fdat_[t.lower(i + 1)] = *value;
+    } else if (t.is(i, "tool_data") || t.is(i, "base_data")) {
+      array_element(t, i);
     }
   }
 
-  /// The order of the text: what tool and base are set, and the moves if `moves`.
-  void walk(const Tokens& t, bool moves) {
-    int depth = 0;
+  /// TOOL_DATA[1]={...} says where a tool is, before all moves; "$TOOL=TOOL_DATA[1]" reads it. What
+  /// else is done with one may change it.
+  void array_element(const Tokens& t, std::size_t i) {
+    Frames& frames = t.is(i, "tool_data") ? program_.tools : program_.frames;
+    const bool reads = t.is(i - 1, "=") && (t.is(i - 2, "$tool") || t.is(i - 2, "$base"));
+    if (i > 1 && reads) return;
+    if (i > 0 && t.is(i - 1, "frame")) return;  // the declaration of the array
+    const bool number = t.at(i + 2).kind == Token::Kind::kNumber && t.is(i + 3, "]");
+    const std::string name = number ? std::string(t.text(i + 2)) : kAllFrames;
+    Frame frame{.X = {},
+                .why = fmt::format("line {} may change it while the program runs", t.line(i)),
+                .moving = true};
+    std::size_t k = i + 5;
+    if (number && begins(t, i) && t.is(i + 4, "=") && first_step(t) > i) {
+      const auto value = aggregate(t, k);
+      frame = frame_of(ends(t, k) ? value : std::nullopt);
+    }
+    const auto [at, is_new] = frames.emplace(name, frame);
+    if (is_new || at->second.moving) return;
+    at->second = {.X = {}, .why = "it is set more than once", .moving = true};
+  }
+
+  /// The first token of a file that goes somewhere, or to another place of the text.
+  std::size_t first_step(const Tokens& t) {
+    const auto at = first_steps_.find(t.source());
+    if (at != first_steps_.end()) return at->second;
+    std::size_t i = 0;
+    bool found = false;
+    for (; i < t.size() && !found; ++i) {
+      const std::string word = begins(t, i) ? t.lower(i) : "";
+      for (const auto* step :
+           {"ptp", "lin", "circ", "sptp", "slin", "scirc", "spline", "if", "for", "while", "loop",
+            "repeat", "switch", "goto", "$tool", "$base", "fdat_act", "end"})
+        found = found || word == step;
+      found = found || (word == "bas" && (t.is(i + 3, "tool") || t.is(i + 3, "base")));
+    }
+    return first_steps_[t.source()] = i;
+  }
+
+  /// The order of the text: what tool and base are set, and the moves.
+  void walk(const Tokens& t) {
+    flow_.routine("");
+    spline_ = false;
     for (std::size_t i = 0; i < t.size(); ++i) {
-      if (t.is(i, "def") || t.is(i, "deffct")) {
-        tool_.begin();
-        base_.begin();
-      }
-      if (begins(t, i)) {
-        for (const auto* word : {"if", "for", "while", "loop", "repeat", "switch"})
-          depth += t.is(i, word) ? 1 : 0;
-        for (const auto* word : {"endif", "endfor", "endwhile", "endloop", "until", "endswitch"})
-          depth -= t.is(i, word) && depth > 0 ? 1 : 0;
-      }
-      setting(t, i, depth > 0);
-      if (moves) move(t, i);
+      structure(t, i);
+      setting(t, i);
+      assignment(t, i);
+      move(t, i);
     }
+    flow_.end_routine();
+    flow_.end_routine();  // one without END
   }
 
-  void setting(const Tokens& t, std::size_t i, bool inside) {
-    if (t.is(i, "bas") && t.is(i + 1, "(") && t.is(i + 2, "#") && t.is(i + 4, ",")) {
+  void structure(const Tokens& t, std::size_t i) {
+    if (!t.is_word(i)) return;
+    const auto one_of = [&](std::initializer_list<const char*> words) {
+      return std::any_of(words.begin(), words.end(), [&](const char* w) { return t.is(i, w); });
+    };
+    const bool defines = i > 0 && (one_of_defs(t, i - 1) || one_of_defs(t, i - 2));
+    if (t.is(i + 1, "(") && !defines) flow_.call(t.lower(i), any_time(t, i));
+    // Sensors and technology packages that shift the targets of all moves.
+    if (one_of({"rsi_movecorr", "rsi_on", "vectormoveon"})) names_.displace(t, i);
+    const bool global = i > 0 && t.is(i - 1, "global");
+    if (!begins(t, i) && !global) return;
+    if (one_of_defs(t, i)) flow_.routine(t.lower(i + (t.is(i, "def") ? 1 : 2)));
+    if (one_of({"end", "endfct"})) flow_.end_routine();
+    if (one_of({"for", "while", "loop", "repeat"})) flow_.block(true);
+    if (one_of({"if", "switch"})) flow_.block(false);
+    if (one_of({"else", "case", "default"})) flow_.branch();
+    if (one_of({"endif", "endfor", "endwhile", "endloop", "until", "endswitch"})) flow_.end_block();
+    if (one_of({"goto"})) flow_.jump();
+    if (t.is(i + 1, ":") && ends(t, i + 2)) flow_.label();
+    if (one_of({"spline", "ptp_spline"})) spline_ = !ends(t, i + 1);
+    if (one_of({"endspline"})) spline_ = false;
+    if (one_of({"$robroot"})) names_.displace(t, i);
+  }
+
+  static bool one_of_defs(const Tokens& t, std::size_t i) {
+    return t.is(i, "def") || t.is(i, "deffct");
+  }
+
+  /// Called by an interrupt or along a path.
+  static bool any_time(const Tokens& t, std::size_t i) {
+    while (!begins(t, i)) --i;
+    return t.is(i, "interrupt") || t.is(i, "trigger") ||
+           (t.is(i, "global") && t.is(i + 1, "interrupt"));
+  }
+
+  void set_both(const std::string& name) {
+    flow_.set(CurrentFrame::What::kTool, name);
+    flow_.set(CurrentFrame::What::kFrame, name);
+  }
+
+  /// "FP1.TOOL_NO=2", "FP1=FP2", CALC(FP1): such a record does not say what its declaration says.
+  void assignment(const Tokens& t, std::size_t i) {
+    if (!t.is_word(i)) return;
+    const bool field = t.is(i + 1, ".") && t.is(i + 3, "=");
+    const bool argument =
+        i > 1 &&
+        (t.is(i - 1, ",") || (t.is(i - 1, "(") && t.is_word(i - 2) && !reads_record(t, i - 2)));
+    if ((begins(t, i) && (field || t.is(i + 1, "="))) || argument)
+      program_.facts.assigned.insert(t.lower(i));
+  }
+
+  static bool reads_record(const Tokens& t, std::size_t i) {
+    return t.is(i, "stool2") || t.is(i, "stool") || t.is(i, "sbase") || t.is(i, "sload") ||
+           t.is(i, "sipo_mode");
+  }
+
+  void setting(const Tokens& t, std::size_t i) {
+    using What = CurrentFrame::What;
+    if (t.is(i, "bas") && t.is(i + 1, "(") && t.is(i + 2, "#")) {
       const bool number = t.at(i + 5).kind == Token::Kind::kNumber && t.is(i + 6, ")");
       const std::string name = number ? std::string(t.text(i + 5)) : "(computed)";
-      if (t.is(i + 3, "tool")) tool_.set(name, inside);
-      if (t.is(i + 3, "base")) base_.set(name, inside);
+      if (t.is(i + 3, "tool")) flow_.set(What::kTool, name);
+      if (t.is(i + 3, "base")) flow_.set(What::kFrame, name);
+      if (t.is(i + 3, "ex_base")) flow_.set(What::kFrame, "(computed)");
+      if (t.is(i + 3, "initmov")) set_both("default");
     }
     if (!begins(t, i)) return;
-    if (t.is(i, "$tool") && t.is(i + 1, ".")) tool_.set("(computed)", inside);
-    if (t.is(i, "$base") && t.is(i + 1, ".")) base_.set("(computed)", inside);
+    if (t.is(i, "$tool") && t.is(i + 1, ".")) flow_.set(What::kTool, "(computed)");
+    if (t.is(i, "$base") && t.is(i + 1, ".")) flow_.set(What::kFrame, "(computed)");
+    if (t.is(i, "fdat_act") && t.is(i + 1, ".")) set_both("(computed)");
     if (!t.is(i + 1, "=")) return;
     if (t.is(i, "$ipo_mode") && t.is(i + 3, "tcp"))
-      tool_.set("(the tool stands in the cell)", inside);
+      flow_.set(What::kTool, "(the tool stands in the cell)");
     if (t.is(i, "fdat_act")) {
       std::size_t k = i + 2;
       const auto known = fdat_.find(t.lower(k));
       const auto value = known != fdat_.end() ? known->second : aggregate(t, k);
-      tool_.set(value ? number_name(*value, "tool_no") : "(computed)", inside);
-      base_.set(value ? number_name(*value, "base_no") : "(computed)", inside);
+      flow_.set(What::kTool, value ? number_name(*value, "tool_no") : "(computed)");
+      flow_.set(What::kFrame, value ? number_name(*value, "base_no") : "(computed)");
     }
-    if (t.is(i, "$tool")) tool_.set(stated(t, i + 2, "tool_data", program_.tools), inside);
-    if (t.is(i, "$base")) base_.set(stated(t, i + 2, "base_data", program_.frames), inside);
+    if (t.is(i, "$tool")) flow_.set(What::kTool, stated(t, i + 2, "tool_data", program_.tools));
+    if (t.is(i, "$base")) flow_.set(What::kFrame, stated(t, i + 2, "base_data", program_.frames));
   }
 
   /// What stands behind "$TOOL=": TOOL_DATA[n], NULLFRAME, an aggregate, or STOOL2(FP1).
@@ -223,7 +326,7 @@ class KrlReader {
     if (t.is(i, "$nullframe") && !t.is(i + 1, ":")) return "0";
     std::size_t k = i;
     if (const auto value = aggregate(t, k); value && !t.is(k, ":")) {
-      const std::string name = t.quoted(i, k);
+      const std::string name = t.whole(i, k);
       frames[name] = frame_of(value);
       return name;
     }
@@ -238,12 +341,12 @@ class KrlReader {
     if (!begins(t, i) || !t.is_word(i)) return;
     std::string word = t.lower(i);
     if (word.size() > 3 && word[0] == 's') word.erase(0, 1);
-    Move move{
-        .motion = Motion::kJoint, .tool = tool_.name(), .frame = base_.name(), .line = t.line(i)};
+    Move move{.motion = Motion::kJoint, .line = t.line(i), .configured = word == "ptp"};
+    if (spline_) move.tool = move.frame = "(set by the SPLINE block)";
     std::size_t k = i + 1;
     if (word == "ptp_rel" || word == "lin_rel" || word == "circ_rel") {
       move.target = listed(t, k, "it is relative to where the arm stands");
-      program_.moves.push_back(move);
+      push(move);
       return;
     }
     if (word != "ptp" && word != "lin" && word != "circ") return;
@@ -251,10 +354,15 @@ class KrlReader {
     if (word == "lin") move.motion = Motion::kLinear;
     if (word == "circ") move.motion = Motion::kVia;
     move.target = goal(t, k);
-    program_.moves.push_back(move);
+    push(move);
     if (word != "circ" || !t.is(k, ",")) return;
     move.motion = Motion::kCircleEnd;
     move.target = goal(t, ++k);
+    push(move);
+  }
+
+  void push(const Move& move) {
+    flow_.move();
     program_.moves.push_back(move);
   }
 
@@ -291,7 +399,6 @@ class KrlReader {
         name ? program_.list(std::string(t.text(begin)), t.source(), t.line(begin),
                              "the program does not state it", "state it in the .dat file beside it")
              : listed(t, begin, "it is computed while the program runs");
-    program_.targets[static_cast<std::size_t>(out)].missing = name;
     int depth = 0;
     for (; !ends(t, k) && !(depth == 0 && t.is(k, ",")); ++k) {
       depth += t.is(k, "{") ? 1 : 0;
@@ -305,6 +412,19 @@ class KrlReader {
     while (!ends(t, k)) ++k;
     return program_.list(t.quoted(i, k), t.source(), t.line(i), std::move(why),
                          "state it as a target of its own, in the .src or the .dat file");
+  }
+
+  /// Where whole numbers stand as `own` has them, from `from` on: not as a part of longer ones.
+  static std::size_t place_of(std::string_view own, std::string_view text, std::size_t from) {
+    const auto joins = [&](std::size_t at) {
+      const char c = at < text.size() ? text[at] : ' ';
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '+' || c == '-' ||
+             c == '_';
+    };
+    for (std::size_t at = text.find(own, from); at != std::string_view::npos;
+         at = text.find(own, at + 1))
+      if (!(at > 0 && joins(at - 1)) && !joins(at + own.size())) return at;
+    return std::string_view::npos;
   }
 
   /// A fold may hold the aggregate of its move once more in its comment, and the editor makes the
@@ -327,28 +447,31 @@ class KrlReader {
         const std::string comment = t.lower(k);
         if (comment.substr(0, 8) == ";endfold") break;
         inside = comment.substr(0, 5) == ";fold";
-        const std::size_t at = t.text(k).find(own);
-        if (at == std::string_view::npos) continue;
-        for (Number n : target.written.numbers) {
-          n.end = t.at(k).begin + at + (n.end - first);
-          n.begin = t.at(k).begin + at + (n.begin - first);
-          target.copies.push_back(n);
-        }
+        for (std::size_t at = place_of(own, t.text(k), 0); at != std::string_view::npos;
+             at = place_of(own, t.text(k), at + 1))
+          for (Number n : target.written.numbers) {
+            n.end = t.at(k).begin + at + (n.end - first);
+            n.begin = t.at(k).begin + at + (n.begin - first);
+            target.copies.push_back(n);
+          }
       }
       if (!inside) target.copies.clear();
     }
   }
 
   Program& program_;
+  const Facts& around_;
   Names names_;
   std::vector<Tokens> files_, comments_;
   std::map<std::string, Aggregate> fdat_;
-  CurrentFrame tool_{"default"}, base_{"default"};
+  std::map<std::size_t, std::size_t> first_steps_;  // of each source
+  CurrentFrame flow_;
+  bool spline_ = false;  // inside a block that states what its moves are made with
 };
 
 }  // namespace
 
-void read_krl(Program& program) { KrlReader(program).read(); }
+void read_krl(Program& program, const Facts& around) { KrlReader(program, around).read(); }
 
 /// Behind the lines with & and the line of DEF, DEFFCT or DEFDAT.
 std::size_t krl_comment_place(std::string_view bytes) {

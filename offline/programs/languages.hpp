@@ -17,7 +17,8 @@ struct Language {
   std::string_view comment;  // what stands before a comment line
   std::string_view end;      // and behind it
   std::size_t longest;       // characters of a comment
-  void (*read)(Program&);    // fills all but the sources, without judging
+  // Fills all but the sources, and judges by what all programs say, this one included.
+  void (*read)(Program&, const Facts& around);
   /// Where a comment line may be put: the offset of the beginning of a line. `bytes` is without a
   /// byte order mark.
   std::size_t (*comment_place)(std::string_view bytes);
@@ -29,13 +30,15 @@ const Language* language_of(const std::string& file);
 /// ".mod, .prg, .ls, ...", for messages.
 std::string known_endings();
 
-/// Reads the sources of a program, and settles which tool and frame each target has.
-Program read_program(const Language& language, std::vector<Source> sources);
+/// Reads programs of one language, each of its sources, and settles which tool and frame each
+/// target has. What one program does to the targets, tools and frames of another counts.
+std::vector<Program> read_programs(const Language& language,
+                                   std::vector<std::vector<Source>> programs);
 
-void read_rapid(Program& program);
-void read_fanuc(Program& program);
-void read_krl(Program& program);
-void read_urscript(Program& program);
+void read_rapid(Program& program, const Facts& around);
+void read_fanuc(Program& program, const Facts& around);
+void read_krl(Program& program, const Facts& around);
+void read_urscript(Program& program, const Facts& around);
 
 std::size_t rapid_comment_place(std::string_view bytes);
 std::size_t fanuc_comment_place(std::string_view bytes);

@@ -129,7 +129,7 @@ std::size_t Tokens::first_from(std::size_t byte) const {
       tokens_.begin());
 }
 
-std::string Tokens::quoted(std::size_t from, std::size_t to) const {
+std::string Tokens::whole(std::size_t from, std::size_t to) const {
   if (from >= to || ended(from)) return "";
   std::string out;
   for (const char c : bytes_.substr(at(from).begin, at(to - 1).end - at(from).begin)) {
@@ -139,6 +139,11 @@ std::string Tokens::quoted(std::size_t from, std::size_t to) const {
     else if (!out.empty() && out.back() != ' ')
       out += ' ';
   }
+  return out;
+}
+
+std::string Tokens::quoted(std::size_t from, std::size_t to) const {
+  std::string out = whole(from, to);
   if (out.size() > kLongest) out = out.substr(0, kLongest - 3) + "...";
   return out;
 }

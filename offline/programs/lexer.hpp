@@ -44,7 +44,8 @@ class Tokens {
   /// The first token that begins at this byte or behind it.
   std::size_t first_from(std::size_t byte) const;
 
-  /// Text of the tokens [from, to) as it stands in the file, on one line and not too long.
+  /// Text of the tokens [from, to) as it stands in the file, on one line; whole, or not too long.
+  std::string whole(std::size_t from, std::size_t to) const;
   std::string quoted(std::size_t from, std::size_t to) const;
 
   /// Removes the comments, and the ends of lines too if `lines`.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,9 +58,13 @@ struct Configuration {
 /// A pose of a tool in the flange, or of a work frame in the base.
 struct Frame {
   std::optional<Transformd> X;
-  std::string why;  // why it is not known, if it is named but not usable
+  std::string why = {};  // why it is not known, if it is named but not usable
+  bool moving = false;   // it is no one pose while the programs run: no option can say where it is
 };
+
+/// By their names; what kAllFrames says counts for every one.
 using Frames = std::map<std::string, Frame>;
+inline const std::string kAllFrames = "*";
 
 /// A target, or a move to something that is none that can be corrected.
 struct Target {
@@ -71,7 +76,7 @@ struct Target {
   std::string tool = {}, frame = {};  // names; those of its moves unless stated with it
   std::string why = {};               // not empty: it is not to be touched, for this reason
   std::string help = {};              // what to do then
-  bool missing = false;               // a move goes to it, and the program does not state it
+  bool external_axes = false;         // it states where external axes stand
   std::vector<Number> copies = {};    // the same numbers once more, as in the comment of a fold
 };
 
@@ -82,7 +87,29 @@ struct Move {
   int target = -1;  // index; -1: none that is known
   std::string tool = {}, frame = {};
   int line = 0;
+  bool configured = false;  // the controller goes to the configuration that the target states
   std::vector<double> joints_deg = {};  // where the joints are near the end of it, if that is said
+};
+
+/// What programs say that counts in every program of their language that is given with them. Names
+/// are in lower case.
+struct Facts {
+  struct Place {
+    std::string file;
+    int line = 0;
+  };
+  std::map<std::string, std::vector<Place>> mentions;  // one in a file, and two at most: of words
+                                                       // but declarations and goals of moves
+  std::map<std::string, std::set<std::string>> calls;  // of each routine
+  std::set<std::string> sets_tool, sets_frame;         // routines
+  std::set<std::string> assigned;                      // records that are changed
+  bool joint_configurations = true, linear_configurations = true;  // they are looked at
+  std::string displaced = {};                                      // why all targets move, or none
+
+  /// Joins what another program says. Then close() finds the routines that set a tool or a frame
+  /// through others.
+  void add(const Facts& other);
+  void close();
 };
 
 /// What a reader found in the files of one program.
@@ -91,6 +118,8 @@ struct Program {
   std::vector<Target> targets;
   std::vector<Move> moves;  // in the order of the text
   Frames tools, frames;
+  Facts facts;
+  bool states_nothing = false;  // no target, no move, no tool, no frame: is it a program at all?
 
   /// Lists something that is not touched, and returns its index.
   int list(std::string name, std::size_t source, int line, std::string why, std::string help);

@@ -31,16 +31,29 @@ constexpr MoveWords kRapidMoves[] = {
     {"moveabsj", Motion::kJoint, 1, 3},
 };
 
+/// Other instructions whose last argument is a tool that they only read.
+constexpr std::string_view kReaders[] = {"searchl", "searchc",   "arcl",    "arcc",  "arclstart",
+                                         "arclend", "arccstart", "arccend", "spotl", "spotj",
+                                         "spotml",  "spotmj",    "displ",   "dispc"};
+constexpr std::string_view kReadingFunctions[] = {"crobt", "cpos", "calcjointt", "calcrobt"};
+
+/// Instructions that move targets while the program runs, wherever these are stated.
+constexpr std::string_view kDisplacing[] = {"pdispon", "pdispset", "fcact", "softact",
+                                            "setalldataval"};
+
 /// An argument of an instruction: tokens [begin, end), and what stands behind \WObj:= in it.
 struct Argument {
   std::size_t begin = 0, end = 0;
-  std::size_t wobj = 0;  // token, 0: none
+  std::size_t wobj = 0;  // token of its name, or another if it is no name; 0: none
 };
 
 class RapidReader {
  public:
-  explicit RapidReader(Program& program)
-      : program_(program), names_(program), tokens_(program.sources[0], 0, {.comments = {"!"}}) {
+  RapidReader(Program& program, const Facts& around)
+      : program_(program),
+        around_(around),
+        names_(program),
+        tokens_(program.sources[0], 0, {.comments = {"!"}}) {
     tokens_.drop_comments(true);
   }
 
@@ -49,25 +62,40 @@ class RapidReader {
     program_.frames["wobj0"].X = Transformd();
     for (std::size_t i = 0; i < tokens_.size(); ++i) declaration(i);
     for (std::size_t i = 0; i < tokens_.size(); ++i) instruction(i);
-    for (std::size_t i = 0; i < tokens_.size(); ++i)
-      if (tokens_.is(i, "pdispon") || tokens_.is(i, "pdispset"))
-        names_.spoil_all(fmt::format("{} in line {} moves all targets while the program runs",
-                                     tokens_.text(i), tokens_.line(i)),
-                         "put the displacement into a work object");
-    if (configuration_is_off())
-      for (Target& one : program_.targets) one.configuration = {};
+    for (std::size_t i = 0; i < tokens_.size(); ++i) fact(i);
+    names_.look_elsewhere(around_);
     names_.look_for_mentions(tokens_);
   }
 
  private:
-  /// Behind ConfL \Off or ConfJ \Off the controller goes to the nearest joint positions, whatever a
-  /// target states.
-  bool configuration_is_off() const {
-    for (std::size_t i = 0; i + 2 < tokens_.size(); ++i)
-      if ((tokens_.is(i, "confl") || tokens_.is(i, "confj")) && tokens_.is(i + 1, "\\") &&
-          tokens_.is(i + 2, "off"))
-        return true;
-    return false;
+  /// What counts in all programs.
+  void fact(std::size_t i) {
+    if (!tokens_.is_word(i)) return;
+    if (one_of(kDisplacing, i)) names_.displace(tokens_, i);
+    // Behind ConfJ \Off and ConfL \Off the controller goes to the nearest joint positions, whatever
+    // a target states.
+    if (tokens_.is(i + 1, "\\") && tokens_.is(i + 2, "off")) {
+      if (tokens_.is(i, "confj")) program_.facts.joint_configurations = false;
+      if (tokens_.is(i, "confl")) program_.facts.linear_configurations = false;
+    }
+    if (!tokens_.is(i, "setdataval")) return;
+    const std::string_view name = tokens_.text(i + 1);
+    if (name.size() > 2 && name.front() == '"' && name.back() == '"') {
+      names_.mention(tokens_, i, lower_case(name.substr(1, name.size() - 2)));
+    } else {
+      names_.displace(tokens_, i);
+      for (Frames* frames : {&program_.tools, &program_.frames})
+        (*frames)[kAllFrames] = {
+            .X = {},
+            .why = fmt::format("SetDataVal in line {} may change it", tokens_.line(i)),
+            .moving = true};
+    }
+  }
+
+  template <std::size_t N>
+  bool one_of(const std::string_view (&words)[N], std::size_t i) const {
+    return std::any_of(std::begin(words), std::end(words),
+                       [&](std::string_view word) { return tokens_.is(i, word); });
   }
 
   void declaration(std::size_t i) {
@@ -81,11 +109,8 @@ class RapidReader {
     if (pose || joints) {
       names_.declare(tokens_, i + 1, target(value, pose));
     } else {
-      Frames& frames = tool ? program_.tools : program_.frames;
-      const auto [at, is_new] =
-          frames.emplace(tokens_.lower(i + 1), tool ? tool_of(value) : work_of(value));
-      if (!is_new) at->second = {.X = {}, .why = "it is declared more than once"};
-      names_.allow(tokens_, i + 1);
+      names_.declare(tokens_, i + 1, tool ? program_.tools : program_.frames,
+                     tool ? tool_of(value) : work_of(value));
     }
   }
 
@@ -103,11 +128,20 @@ class RapidReader {
     } else if (value && !pose && value->items.size() == 2) {
       out.written = {.notation = Notation::kJoints_deg, .numbers = numbers_of(value->items[0], 6)};
     }
+    if (value && value->items.size() > 1) out.external_axes = external(value->items.back());
     if (out.written.numbers.empty()) {
       out.why = "it is not stated as plain numbers";
       out.help = "state it as [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[...]]";
     }
     return out;
+  }
+
+  /// 9E9 is an axis that there is not.
+  static bool external(const Value& axes) {
+    constexpr double kNone = 9e9;
+    return std::any_of(axes.items.begin(), axes.items.end(), [](const Value& axis) {
+      return !axis.number || axis.number->value != kNone;
+    });
   }
 
   /// cf1, cf4, cf6 are quarter turns of axes 1, 4, 6. cfx is 0 to 7: 4 with the wrist behind axis
@@ -135,14 +169,17 @@ class RapidReader {
 
   static Frame tool_of(const std::optional<Value>& value) {
     if (!value || value->items.size() < 2) return {.X = {}, .why = "it is not stated as numbers"};
-    if (value->items[0].word != "true") return {.X = {}, .why = "the tool stands in the cell"};
+    if (value->items[0].word != "true")
+      return {.X = {}, .why = "the tool stands in the cell", .moving = true};
     return {.X = frame_of(value->items[1]), .why = "it is not stated as numbers"};
   }
 
   static Frame work_of(const std::optional<Value>& value) {
     if (!value || value->items.size() != 5) return {.X = {}, .why = "it is not stated as numbers"};
-    if (value->items[0].word != "false") return {.X = {}, .why = "the robot holds the work"};
-    if (value->items[1].word != "true") return {.X = {}, .why = "another machine moves the work"};
+    if (value->items[0].word != "false")
+      return {.X = {}, .why = "the robot holds the work", .moving = true};
+    if (value->items[1].word != "true" || value->items[2].word != "\"\"")
+      return {.X = {}, .why = "another machine moves the work", .moving = true};
     const auto user = frame_of(value->items[3]), object = frame_of(value->items[4]);
     if (!user || !object) return {.X = {}, .why = "it is not stated as numbers"};
     return {.X = *user * *object, .why = ""};
@@ -163,7 +200,7 @@ class RapidReader {
       if (depth != 0) continue;
       if (tokens_.is(i, "\\") && now.end == 0) now.end = i;
       const bool wobj = tokens_.is(i, "\\") && tokens_.is(i + 1, "wobj");
-      if (wobj && tokens_.is(i + 2, ":=")) now.wobj = i + 3;
+      if (wobj) now.wobj = tokens_.is(i + 2, ":=") ? i + 3 : i;
       if (tokens_.is(i, ",")) close(i);
     }
     close(i);
@@ -177,17 +214,44 @@ class RapidReader {
     return alone ? tokens_.lower(i) : "(computed)";
   }
 
+  /// The tool and the work object of a move, whose mention there does no harm.
+  void allow_names(const Argument& tool, const std::vector<Argument>& given) {
+    names_.allow(tokens_, tool.begin);
+    for (const Argument& argument : given)
+      if (argument.wobj > 0)  // \WObj:=wTable, or \WObj?wTable
+        names_.allow(tokens_, argument.wobj + (tokens_.is_word(argument.wobj) ? 0 : 3));
+  }
+
+  /// CRobT(\Tool:=tGun \WObj:=wTable) reads both.
+  void reading_function(std::size_t i) {
+    int depth = 0;
+    for (std::size_t k = i + 1; !tokens_.ended(k); ++k) {
+      depth += tokens_.is(k, "(") ? 1 : 0;
+      depth -= tokens_.is(k, ")") ? 1 : 0;
+      if (depth <= 0) return;
+      if (depth == 1 && tokens_.is(k, "\\") && tokens_.is(k + 2, ":=") &&
+          (tokens_.is(k + 1, "tool") || tokens_.is(k + 1, "wobj")))
+        names_.allow(tokens_, k + 3);
+    }
+  }
+
   void instruction(std::size_t i) {
-    if (changed_frame(i)) return;
+    if (!tokens_.is_word(i)) return;
+    if (one_of(kReadingFunctions, i)) return reading_function(i);
     const auto* words = std::find_if(std::begin(kRapidMoves), std::end(kRapidMoves),
                                      [&](const MoveWords& w) { return tokens_.is(i, w.name); });
-    if (words == std::end(kRapidMoves) || !tokens_.is_word(i)) return;
+    const bool moves = words != std::end(kRapidMoves);
+    if (!moves && !one_of(kReaders, i)) return;
     const auto given = arguments(i + 1);
-    if (given.size() <= words->tool) return;
+    if (!moves && given.size() > 2) allow_names(given.back(), given);
+    if (!moves || given.size() <= words->tool) return;
+    allow_names(given[words->tool], given);
+    const bool joint = words->motion == Motion::kJoint;
     Move move{.motion = words->motion,
               .tool = name_at(given[words->tool].begin),
               .frame = "wobj0",
-              .line = tokens_.line(i)};
+              .line = tokens_.line(i),
+              .configured = joint ? around_.joint_configurations : around_.linear_configurations};
     for (const Argument& argument : given)
       if (argument.wobj > 0) move.frame = name_at(argument.wobj);
     for (std::size_t k = 0; k < words->targets; ++k) {
@@ -195,16 +259,23 @@ class RapidReader {
       if (k + 1 < words->targets) one.motion = Motion::kVia;
       one.target = goal(given[k], words->name == "moveabsj");
       program_.moves.push_back(one);
+      Target& target = program_.targets[static_cast<std::size_t>(one.target)];
+      if (!target.why.empty() || !tracks(i)) continue;
+      target.why = fmt::format("line {} moves it with \\Corr", move.line);
+      target.help = "state the position that is meant, without a correction";
     }
+  }
+
+  bool tracks(std::size_t i) const {
+    for (; !tokens_.ended(i) && !tokens_.is(i, ";"); ++i)
+      if (tokens_.is(i, "\\") && tokens_.is(i + 1, "corr")) return true;
+    return false;
   }
 
   int goal(const Argument& at, bool joints) {
     if (at.end == at.begin + 1 && tokens_.is_word(at.begin)) {
       if (const int known = names_.used(tokens_, at.begin); known >= 0) return known;
-      const int out =
-          listed(at, "the program does not state it", "state it in the module of its moves");
-      program_.targets[static_cast<std::size_t>(out)].missing = true;
-      return out;
+      return listed(at, "the program does not state it", "state it in the module of its moves");
     }
     std::size_t k = at.begin;
     if (const auto value = list_at(tokens_, k); value && k == at.end) {
@@ -228,29 +299,15 @@ class RapidReader {
                          std::move(why), std::move(help));
   }
 
-  /// "tGun.tframe.trans := ...": what was declared does not hold.
-  bool changed_frame(std::size_t i) {
-    if (!tokens_.is_word(i) || tokens_.is(i - 1, ".")) return false;
-    std::size_t k = i + 1;
-    while (tokens_.is(k, ".") && tokens_.is_word(k + 1)) k += 2;
-    const bool declared = i > 0 && (tokens_.is(i - 1, "tooldata") || tokens_.is(i - 1, "wobjdata"));
-    if (!tokens_.is(k, ":=") || tokens_.is(i - 1, "\\") || declared) return false;
-    for (Frames* frames : {&program_.tools, &program_.frames})
-      if (const auto at = frames->find(tokens_.lower(i)); at != frames->end())
-        at->second = {
-            .X = {},
-            .why = fmt::format("line {} changes it while the program runs", tokens_.line(i))};
-    return true;
-  }
-
   Program& program_;
+  const Facts& around_;
   Names names_;
   Tokens tokens_;
 };
 
 }  // namespace
 
-void read_rapid(Program& program) { RapidReader(program).read(); }
+void read_rapid(Program& program, const Facts& around) { RapidReader(program, around).read(); }
 
 /// Behind the line of MODULE, before which no comment needs to be legal.
 std::size_t rapid_comment_place(std::string_view bytes) {

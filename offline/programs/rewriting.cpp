@@ -28,6 +28,10 @@ std::string plain(std::string_view text, std::size_t most) {
   return out.substr(0, most);
 }
 
+std::pair<std::size_t, std::size_t> place(const Edit& edit) {
+  return {edit.number.source, edit.number.begin};
+}
+
 std::vector<std::string_view> lines_of(std::string_view bytes) {
   std::vector<std::string_view> out;
   while (!bytes.empty()) {
@@ -103,7 +107,11 @@ std::vector<std::string> edited(const Program& program, std::vector<Edit> edits)
   std::vector<std::string> out;
   for (const Source& source : program.sources) out.push_back(source.bytes);
   std::sort(edits.begin(), edits.end(),
-            [](const Edit& a, const Edit& b) { return a.number.begin > b.number.begin; });
+            [](const Edit& a, const Edit& b) { return place(a) > place(b); });
+  // Two targets may share the copy of their numbers in a comment: it is written once.
+  edits.erase(std::unique(edits.begin(), edits.end(),
+                          [](const Edit& a, const Edit& b) { return place(a) == place(b); }),
+              edits.end());
   for (const Edit& edit : edits)
     out[edit.number.source].replace(edit.number.begin, edit.number.end - edit.number.begin,
                                     edit.digits);

@@ -16,24 +16,30 @@ namespace {
 
 class UrscriptReader {
  public:
-  explicit UrscriptReader(Program& program)
-      : program_(program), names_(program), tokens_(program.sources[0], 0, {.comments = {"#"}}) {
+  UrscriptReader(Program& program, const Facts& around)
+      : program_(program),
+        around_(around),
+        names_(program),
+        tokens_(program.sources[0], 0, {.comments = {"#"}}) {
     tokens_.drop_comments(false);
   }
 
   void read() {
     program_.frames["base"].X = Transformd();
     for (std::size_t i = 0; i < tokens_.size(); ++i) declaration(i);
-    CurrentFrame scan("default");
-    int depth = 0;
-    for (std::size_t i = 0; i < tokens_.size(); ++i) tool_statement(i, depth, scan);
-    scan.decide();
-    depth = 0;
+    flow_.routine("");
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
-      tool_statement(i, depth, scan);
-      move(i, scan.name());
+      structure(i);
+      set_tcp(i);
+      move(i);
+      if (displaces(i)) names_.displace(tokens_, i);
     }
+    flow_.report(program_.facts);
+    const auto tools = flow_.names(CurrentFrame::What::kTool, around_);
+    for (std::size_t m = 0; m < program_.moves.size(); ++m) program_.moves[m].tool = tools[m];
+    names_.look_elsewhere(around_);
     names_.look_for_mentions(tokens_);
+    for (const auto& [m, near] : near_) begin_near(program_.moves[m], near);
   }
 
  private:
@@ -61,41 +67,63 @@ class UrscriptReader {
     names_.declare(tokens_, i, {.written = *written});
   }
 
-  void tool_statement(std::size_t i, int& depth, CurrentFrame& tool) {
-    for (const auto* word : {"def", "thread", "sec", "if", "while", "for"})
-      if (tokens_.is(i, word) && (i == 0 || tokens_.at(i - 1).kind == Token::Kind::kLine)) {
-        if (depth++ == 0) tool.begin();
-      }
-    if (tokens_.is(i, "end") && depth > 0) --depth;
+  bool begins(std::size_t i) const {
+    return i == 0 || tokens_.at(i - 1).kind == Token::Kind::kLine;
+  }
+
+  void structure(std::size_t i) {
+    if (!tokens_.is_word(i)) return;
+    const bool thread = tokens_.is(i, "thread") || tokens_.is(i, "sec");
+    const bool loop = tokens_.is(i, "while") || tokens_.is(i, "for");
+    if (tokens_.is(i, "end")) flow_.end();
+    if (begins(i) && (thread || tokens_.is(i, "def"))) flow_.routine(tokens_.lower(i + 1), thread);
+    if (begins(i) && (loop || tokens_.is(i, "if"))) flow_.block(loop);
+    if (begins(i) && (tokens_.is(i, "elif") || tokens_.is(i, "else"))) flow_.branch();
+    const bool declares = i > 0 && (tokens_.is(i - 1, "def") || tokens_.is(i - 1, "thread") ||
+                                    tokens_.is(i - 1, "sec"));
+    if (tokens_.is(i + 1, "(") && !declares) flow_.call(tokens_.lower(i));
+  }
+
+  void set_tcp(std::size_t i) {
     if (!tokens_.is(i, "set_tcp") || !tokens_.is(i + 1, "(")) return;
     std::size_t k = i + 2;
     const auto written = literal(k);
     const bool whole = written && (tokens_.is(k, ")") || tokens_.is(k, ","));
     const auto X = whole ? pose_of(*written) : std::nullopt;
     std::string key = fmt::format("set_tcp of line {}", tokens_.line(i));
-    if (X) key = "set_tcp(" + tokens_.quoted(i + 2, k) + ")";
+    if (X) key = "set_tcp(" + tokens_.whole(i + 2, k) + ")";
     program_.tools[key] = {.X = X, .why = X ? "" : "its numbers are computed"};
-    tool.set(key, depth > 1);
+    flow_.set(CurrentFrame::What::kTool, key);
   }
 
-  void move(std::size_t i, const std::string& tool) {
+  /// What moves the targets of all moves while it is switched on.
+  bool displaces(std::size_t i) const {
+    const std::string word = tokens_.is_word(i) ? tokens_.lower(i) : "";
+    return word.rfind("track_conveyor_", 0) == 0 || word.rfind("path_offset_", 0) == 0 ||
+           word == "force_mode" || word == "screw_driving";
+  }
+
+  void move(std::size_t i) {
     const bool circle = tokens_.is(i, "movec");
     const bool joint = tokens_.is(i, "movej");
     if (!circle && !joint && !tokens_.is(i, "movel") && !tokens_.is(i, "movep")) return;
     if (!tokens_.is(i + 1, "(")) return;
     std::size_t k = i + 2;
     Move move{.motion = joint ? Motion::kJoint : Motion::kLinear,
-              .tool = tool,
               .frame = "base",
               .line = tokens_.line(i)};
     if (circle) move.motion = Motion::kVia;
     goal(k, move);
-    program_.moves.push_back(move);
+    push(move);
     if (!circle || !tokens_.is(k, ",")) return;
     ++k;
     move.motion = Motion::kCircleEnd;
-    move.joints_deg.clear();
     goal(k, move);
+    push(move);
+  }
+
+  void push(const Move& move) {
+    flow_.move();
     program_.moves.push_back(move);
   }
 
@@ -143,21 +171,38 @@ class UrscriptReader {
     if (target < 0) return false;
     move.target = target;
     const int joints = near > 0 ? names_.used(tokens_, near) : -1;
-    if (joints >= 0)
-      for (const Number& q : program_.targets[static_cast<std::size_t>(joints)].written.numbers)
-        move.joints_deg.push_back(q.value * 180.0 / 3.14159265358979323846);
+    if (near > 0) near_.emplace_back(program_.moves.size(), joints);
     k = next + 1;
     return true;
   }
 
+  /// The joints that qnear names, if they are known and nothing changes them.
+  void begin_near(Move& move, int joints) {
+    const Target* near = joints < 0 ? nullptr : &program_.targets[static_cast<std::size_t>(joints)];
+    if (near != nullptr && near->why.empty() && near->written.notation == Notation::kJoints_rad) {
+      for (const Number& q : near->written.numbers)
+        move.joints_deg.push_back(q.value * 180.0 / 3.14159265358979323846);
+      return;
+    }
+    Target& target = program_.targets[static_cast<std::size_t>(move.target)];
+    if (!target.why.empty()) return;
+    target.why = fmt::format("line {} takes its joints near others that are not known", move.line);
+    target.help = "state the joints of qnear as [...] of their own, which nothing changes";
+  }
+
   Program& program_;
+  const Facts& around_;
   Names names_;
   Tokens tokens_;
+  CurrentFrame flow_;
+  std::vector<std::pair<std::size_t, int>> near_;  // moves, and the joints of their qnear
 };
 
 }  // namespace
 
-void read_urscript(Program& program) { UrscriptReader(program).read(); }
+void read_urscript(Program& program, const Facts& around) {
+  UrscriptReader(program, around).read();
+}
 
 std::size_t urscript_comment_place(std::string_view) { return 0; }
 

@@ -199,13 +199,21 @@ class FilterVerb : public testing::Test {
     return text;
   }
 
-  /// A Fanuc program whose positions are these, in a user frame; rounds them as it does.
-  static std::string fanuc(std::vector<Case>& read, const Pose& X_BW) {
+  /// A Fanuc program whose positions are these, in a user frame; rounds them as it does. `joints`:
+  /// before each it moves to joints beside it, because the configuration alone leaves several.
+  static std::string fanuc(std::vector<Case>& read, const Pose& X_BW, bool joints) {
     std::string moves, positions;
     for (std::size_t i = 0; i < read.size(); ++i) {
       const Pose X = X_BW.inverse() * read[i].X_BT;
       const Eigen::Vector3d zyx = X.linear().eulerAngles(2, 1, 0) / kDeg;
       const std::string n = std::to_string(i + 1);
+      if (joints) {
+        moves += "   1:J P[10" + n + "] 100% FINE    ;\n";
+        positions += "P[10" + n + "]{\n   GP1:\n\tUF : 1, UT : 1,\n";
+        for (std::size_t k = 0; k < 6; ++k)
+          positions += "\tJ" + std::to_string(k + 1) + "= " + number(read[i].q[k] + 1.0, 3) +
+                       (k == 5 ? " deg\n};\n" : " deg,\n");
+      }
       moves += "   " + n + ":" + (i == 0 ? "J" : "L") + " P[" + n + "] 100mm/sec FINE    ;\n";
       const Eigen::Vector3d p = X.translation();
       positions += "P[" + n + "]{\n   GP1:\n\tUF : 1, UT : 1,\t\tCONFIG : '" +
@@ -267,7 +275,7 @@ TEST_F(FilterVerb, RapidTargetsInAWorkObjectAreThoseOfCorrectToTheLastDigit) {
 TEST_F(FilterVerb, FanucPositionsAreThoseOfCorrectWithFramesFromTheCommandLine) {
   const Pose X_BW = pose(100, 50, -20, 5, 10, 15);
   std::vector<Case> read = *cases;
-  const std::string text = fanuc(read, X_BW);
+  const std::string text = fanuc(read, X_BW, true);
   box->write("PICK.LS", text);
   const Ran none = box->plumb({"-C", "cell", "filter", "PICK.LS", "-o", "ls", "--json"});
   EXPECT_EQ(none.exit, 4);
@@ -278,6 +286,13 @@ TEST_F(FilterVerb, FanucPositionsAreThoseOfCorrectWithFramesFromTheCommandLine) 
                               "--frame", "1=100,50,-20,5,10,15", "--json"});
   ASSERT_EQ(ran.exit, 0) << ran.err << ran.out;
   EXPECT_EQ(program(ran).at("corrected"), read.size()) << ran.out;
+  EXPECT_EQ(program(ran).at("joint_targets"), read.size()) << ran.out;
+  std::vector<Case> same = *cases;
+  box->write("FAR.LS", fanuc(same, X_BW, false));
+  const Ran far = box->plumb({"-C", "cell", "filter", "FAR.LS", "-o", "ls", "--tool", "1=model",
+                              "--frame", "1=100,50,-20,5,10,15", "--json"});
+  EXPECT_EQ(far.exit, 4) << "where the arm was before the first move is not known";
+  EXPECT_NE(far.out.find("--start"), std::string::npos);
   const auto expected = corrected("cell", read);
   const std::string after = box->read("ls/PICK.LS");
   EXPECT_NE(after.find("/MN\n   1:  !plumb filter: targets corrected ;\n"), std::string::npos);
@@ -387,8 +402,9 @@ TEST_F(FilterVerb, WithAModelThatCorrectsNothingTheBytesAreTheSame) {
   EXPECT_NE(ran.out.find("byte for byte"), std::string::npos) << ran.out;
   std::filesystem::copy(PLUMB_SOURCES "/tests/programs/corpus", box->path() / "corpus");
   for (const std::string file : {"traps.mod", "TRAPS.LS", "traps.src"}) {
-    const Ran one = box->plumb({"-C", "nominal", "filter", "corpus/" + file, "-o", "same", "--tool",
-                                "1=model", "--frame", "1=0,0,0,0,0,0", "--json"});
+    const Ran one =
+        box->plumb({"-C", "nominal", "filter", "corpus/" + file, "-o", "same", "--tool", "1=model",
+                    "--frame", "1=0,0,0,0,0,0", "--start", "0,25,85,0,70,-175", "--json"});
     EXPECT_EQ(one.exit, 0) << file << one.err;
     EXPECT_GE(program(one).at("corrected").get<int>(), 4) << file;
     EXPECT_EQ(program(one).at("changed"), 0) << file;
@@ -400,9 +416,11 @@ TEST_F(FilterVerb, WithAModelThatCorrectsNothingTheBytesAreTheSame) {
 TEST_F(FilterVerb, BetweenTargetsTheErrorIsThatOfTheStraightLineAgainstCorrect) {
   std::vector<Case> ends{(*cases)[0], (*cases)[0]};
   ends[1].X_BT.translation() += Eigen::Vector3d(-700, 500, 200);
-  box->write("LINE.LS", fanuc(ends, Pose::Identity()));
+  box->write("LINE.LS", fanuc(ends, Pose::Identity(), false));
+  std::string start = "--start=";
+  for (std::size_t j = 0; j < 6; ++j) start += (j ? "," : "") + number(ends[0].q[j], 6);
   const Ran ran = box->plumb({"-C", "cell", "filter", "LINE.LS", "-o", "line", "--tool", "1=model",
-                              "--frame", "1=0,0,0,0,0,0", "--json"});
+                              "--frame", "1=0,0,0,0,0,0", start, "--json"});
   ASSERT_EQ(ran.exit, 0) << ran.err << ran.out;
   ASSERT_EQ(program(ran).at("corrected"), 2) << ran.out;
   const std::string after = box->read("line/LINE.LS");
@@ -424,8 +442,6 @@ TEST_F(FilterVerb, BetweenTargetsTheErrorIsThatOfTheStraightLineAgainstCorrect) 
          << "," << q.z() << "\n";
   }
   box->write("line.csv", line.str());
-  std::string start = "--start=";
-  for (std::size_t j = 0; j < 6; ++j) start += (j ? "," : "") + number(ends[0].q[j], 6);
   ASSERT_EQ(
       box->plumb({"correct", "cell/robot.plumb", "--data", "line.csv", start, "-o", "line_out.csv"})
           .exit,
@@ -499,6 +515,90 @@ TEST_F(FilterVerb, FewDigitsAreSaidAndMoreAreWrittenIfAsked) {
   ASSERT_EQ(more.exit, 0) << more.err;
   EXPECT_LT(program(more).at("rounding_mm").get<double>(), 1e-4);
   EXPECT_EQ(more.out.find("N-FILTER-DIGITS"), std::string::npos);
+}
+
+TEST_F(FilterVerb, AToolThatChangesIsNotReplacedFromTheCommandLineNorOfferedForIt) {
+  std::string text = rapid(*cases, Pose::Identity(), Pose::Identity(), kOwnTool, kNoFrame);
+  const auto filtered = [&](const std::string& changed) {
+    box->write("moving.mod", changed);
+    return box->plumb({"-C", "cell", "filter", "moving.mod", "-o", "moving", "--tool", "tGun=model",
+                       "--frame", "wTable=0,0,0,0,0,0", "--dry-run", "--json"});
+  };
+  EXPECT_EQ(filtered(text).exit, 0);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string out = text;
+    return out.replace(out.find(from), from.size(), to);
+  };
+  for (const std::string& changed :
+       {with("PROC main()", "PROC main()\r\ntGun.tframe.trans.x:=7;"),
+        with("PROC main()", "PROC main()\r\nwTable:=wOld;"),
+        with("PROC main()", "PROC main()\r\nSetDataVal name,tOld;"),
+        with("tGun:=[TRUE", "tGun:=[FALSE"), with("[FALSE,TRUE,", "[TRUE,TRUE,"),
+        with("[FALSE,TRUE,", "[FALSE,FALSE,")}) {
+    const Ran ran = filtered(changed);
+    EXPECT_EQ(ran.exit, 4) << changed;
+    EXPECT_EQ(ran.out.find("--tool tgun"), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.out.find("--frame wtable"), std::string::npos) << ran.out;
+  }
+  std::string other = with("tooldata tGun:=[TRUE,[[0,0,150]", "tooldata tGun:=[TRUE,[[0,0,where]");
+  EXPECT_EQ(filtered(other).exit, 0) << "one that is only not stated as numbers is";
+}
+
+TEST_F(FilterVerb, TargetsWithExternalAxesAreListedUnlessTheRobotStands) {
+  std::string text = rapid(*cases, Pose::Identity(), Pose::Identity(), kOwnTool, kNoFrame);
+  text.replace(text.find("[9E9,"), 5, "[250,");
+  box->write("rail.mod", text);
+  const Ran ran = box->plumb({"-C", "cell", "filter", "rail.mod", "-o", "rail", "--json"});
+  EXPECT_EQ(program(ran).at("corrected").get<std::size_t>(), cases->size() - 1);
+  EXPECT_NE(ran.out.find("--robot-stands"), std::string::npos) << ran.out;
+  const Ran stands =
+      box->plumb({"-C", "cell", "filter", "rail.mod", "-o", "stands", "--robot-stands", "--json"});
+  EXPECT_EQ(program(stands).at("corrected"), cases->size());
+}
+
+/// Behind a target that is not known, the nearest joints would be those beside another one.
+TEST_F(FilterVerb, WhereTheArmWasIsForgottenBehindATargetThatIsNotKnown) {
+  std::vector<Case> ends{(*cases)[0], (*cases)[0]};
+  ends[1].X_BT.translation() += Eigen::Vector3d(0, 0, 20);
+  std::string text = rapid(ends, Pose::Identity(), Pose::Identity(), kOwnTool, kNoFrame);
+  text.replace(text.find("PROC main()"), 11, "PROC main()\r\n ConfL \\Off;");
+  const auto count = [&](const std::string& program_text) {
+    box->write("stale.mod", program_text);
+    return program(
+               box->plumb({"-C", "cell", "filter", "stale.mod", "-o", "x", "--dry-run", "--json"}))
+        .at("corrected")
+        .get<int>();
+  };
+  EXPECT_EQ(count(text), 2);
+  const std::size_t second = text.find("    MoveL p1");
+  EXPECT_EQ(count(std::string(text).insert(second, "MoveL pElsewhere,v100,fine,tGun;\r\n")), 1);
+  EXPECT_EQ(count(std::string(text).insert(second, "MoveL Offs(p0,0,0,5),v100,fine,tGun;\r\n")), 1);
+}
+
+TEST_F(FilterVerb, AFileInThePlaceOfTheFolderIsSaidBeforeAnythingElse) {
+  box->write("folder.mod", rapid(*cases, Pose::Identity(), Pose::Identity(), kOwnTool, kNoFrame));
+  box->write("taken", "x");
+  for (const std::string folder : {"taken", "taken/deeper"})
+    for (const std::string dry : {"--force", "--dry-run"}) {
+      const Ran ran = box->plumb({"-C", "cell", "filter", "folder.mod", "-o", folder, dry});
+      EXPECT_EQ(ran.exit, 2) << ran.err;
+      EXPECT_EQ(ran.out, "");
+      EXPECT_NE(ran.err.find("taken is a file, and a folder is meant"), std::string::npos)
+          << ran.err;
+    }
+  EXPECT_EQ(box->read("taken"), "x");
+}
+
+TEST_F(FilterVerb, AFileInWhichNothingIsFoundGetsAWarning) {
+  std::string returns = rapid(*cases, Pose::Identity(), Pose::Identity(), kOwnTool, kNoFrame);
+  std::erase(returns, '\n');  // "! caf" then hides all that follows
+  for (const std::string& text : {std::string("\x01\x02 noise"), std::string(), returns}) {
+    box->write("noise.mod", text);
+    const Ran ran = box->plumb({"-C", "cell", "filter", "noise.mod", "-o", "noise", "--force"});
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_NE(ran.err.find("W-FILTER-EMPTY"), std::string::npos) << ran.err;
+    EXPECT_EQ(box->read("noise/noise.mod"), text);
+  }
 }
 
 TEST_F(FilterVerb, WhatIsNotTouchedIsListedWithItsLine) {

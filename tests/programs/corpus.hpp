@@ -25,7 +25,7 @@ inline Program read_bytes(const std::string& file, const std::string& bytes,
                           const std::string& data = "") {
   std::vector<Source> sources{{file, bytes}};
   if (!data.empty()) sources.push_back({"x.dat", data});
-  return read_program(*language_of(file), std::move(sources));
+  return read_programs(*language_of(file), {std::move(sources)}).at(0);
 }
 
 inline Program read_corpus(const std::string& file, const std::string& data = "") {

@@ -3,9 +3,7 @@
 #include <cstdio>
 #include <random>
 
-#include "programs/current_frame.hpp"
 #include "programs/lexer.hpp"
-#include "programs/names.hpp"
 #include "programs/rewriting.hpp"
 #include "programs/settle.hpp"
 #include "programs/written.hpp"
@@ -21,8 +19,9 @@ std::set<std::string> known(const Program& program) {
   for (const Target& target : program.targets) {
     const auto tool = program.tools.find(target.tool);
     const auto frame = program.frames.find(target.frame);
-    if (target.why.empty() && pose_of(target.written) && tool != program.tools.end() &&
-        tool->second.X && frame != program.frames.end() && frame->second.X)
+    if (target.why.empty() && !target.external_axes && pose_of(target.written) &&
+        tool != program.tools.end() && tool->second.X && frame != program.frames.end() &&
+        frame->second.X)
       out.insert(target.name);
   }
   return out;
@@ -65,14 +64,14 @@ TEST(Readers, EveryTrapIsListedWithItsLineAReasonAndWhatToDo) {
 TEST(Readers, SayWhyATrapIsNotTouched) {
   const Program p = read_corpus("traps.mod");
   for (const auto& [name, words] : std::map<std::string, std::string>{
-           {"trapAssigned", "line 34 uses it"},
-           {"trapComponent", "line 36 uses it"},
+           {"trapAssigned", "line 38 uses it"},
+           {"trapComponent", "line 40 uses it"},
            {"trapTwoTools", "two tools"},
            {"trapTwoFrames", "two frames"},
-           {"trapRead", "line 43 uses it"},
+           {"trapRead", "line 47 uses it"},
            {"trapComputed", "plain numbers"},
            {"trapUnused", "no move"},
-           {"trapSearched", "line 47 uses it"},
+           {"trapSearched", "line 51 uses it"},
            {"trapTwice", "declared more than once"},
            {"trapArray", "plain numbers"},
            {"trapParameter", "plain numbers"},
@@ -82,24 +81,13 @@ TEST(Readers, SayWhyATrapIsNotTouched) {
            {"pElsewhere", "does not state"}})
     EXPECT_NE(named(p, name).why.find(words), std::string::npos)
         << name << ": " << named(p, name).why;
-  EXPECT_EQ(p.tools.at("tmoved").why, "line 48 changes it while the program runs");
+  EXPECT_EQ(p.tools.at("tmoved").why, "line 52 uses it for something else than a move");
+  EXPECT_NE(named(p, "trapCorr").why.find("\\Corr"), std::string::npos);
+  EXPECT_TRUE(named(p, "trapExternal").external_axes);
+  EXPECT_EQ(named(p, "trapFrameChosen").frame, "(computed)");
+  EXPECT_NE(named(p, "trapNamed").why.find("line 67 uses it"), std::string::npos);
   EXPECT_EQ(named(read_corpus("displaced.prg"), "trapA").why,
-            "PDispOn in line 4 moves all targets while the program runs");
-}
-
-/// The controller does not look at the configurations then, so nobody knows whether they hold.
-TEST(Readers, RapidConfigurationsThatAreSwitchedOffSayNothing) {
-  const std::string text =
-      "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-      "PROC main()\nMoveL p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
-  for (const auto* const words : {"ConfL\\Off;", "ConfJ \\Off;"}) {
-    std::string other = text;
-    other.insert(text.find("MoveL"), words);
-    const Program with = read_bytes("m.mod", text), without = read_bytes("m.mod", other);
-    EXPECT_EQ(named(with, "p").configuration.ranges.size(), 4U);
-    EXPECT_TRUE(named(without, "p").configuration.ranges.empty()) << words;
-    EXPECT_FALSE(named(without, "p").configuration.front) << words;
-  }
+            "PDispOn in displaced.prg:4 moves all targets while the program runs");
 }
 
 TEST(Readers, RapidTargetsHaveTheirNumbersConfigurationToolAndFrame) {
@@ -131,10 +119,9 @@ TEST(Readers, FanucPositionsHaveTheirFramesAndCircularMovesTwoPoints) {
   const Target& t = named(p, "P[1]");
   EXPECT_EQ(values_of(t.written), (std::vector<double>{1400, 0.125, 900, 175, 5, -0.5}));
   EXPECT_EQ(t.tool + "/" + t.frame, "1/1");
-  ASSERT_EQ(t.configuration.ranges.size(), 4U);
-  EXPECT_EQ(t.configuration.ranges[0].joint, 4);
-  EXPECT_EQ(t.configuration.ranges[0].low_deg, 0.0);  // F: axis 5 positive
-  EXPECT_EQ(t.configuration.ranges[1].low_deg, -180.0);
+  EXPECT_TRUE(t.configuration.ranges.empty());  // what F and the turns say is not read
+  EXPECT_TRUE(*t.configuration.front && *t.configuration.elbow_front);
+  EXPECT_TRUE(named(p, "P[16]").external_axes);
   EXPECT_EQ(named(p, "P[11]").tool, "default");
   EXPECT_TRUE(of_joints(named(p, "P[13]").written.notation));
   EXPECT_NE(named(p, "P[5]").why.find("offset"), std::string::npos);
@@ -178,22 +165,6 @@ TEST(Readers, UrscriptMovesKnowTheToolThatWasSetLast) {
   EXPECT_FALSE(p.tools.at(named(p, "trap_tool_p").tool).X);
 }
 
-TEST(Readers, AToolThatIsSetInALoopOrAConditionIsKnownOnlyIfAllSayTheSame) {
-  const std::string body = "  movel(p[0.5,0.1,0.4,0,3.1416,0])\nend\n";
-  const std::string one = "  set_tcp(p[0,0,0.1,0,0,0])\n", two = "  set_tcp(p[0,0,0.2,0,0,0])\n";
-  const auto tool = [](const std::string& text) {
-    const Program p = read_bytes("x.script", "def x():\n" + text);
-    const auto at = p.tools.find(p.targets.at(0).tool);
-    return at != p.tools.end() && at->second.X ? at->second.X->p(2) : -1.0;
-  };
-  EXPECT_EQ(tool(one + body), 0.1);
-  EXPECT_EQ(tool(one + two + body), 0.2);
-  EXPECT_EQ(tool(one + "  if a:\n" + two + "  end\n" + body), -1.0);
-  EXPECT_EQ(tool(one + "  if a:\n" + one + "  end\n" + body), 0.1);
-  EXPECT_EQ(tool("  if a:\n" + one + "  end\n" + body), -1.0);
-  EXPECT_EQ(tool(body), -1.0);
-}
-
 TEST(Readers, TellALanguageByTheEndingOfTheName) {
   EXPECT_EQ(language_of("a/B.MOD")->name, "RAPID");
   EXPECT_EQ(language_of("x.Ls")->name, "Fanuc LS");
@@ -201,17 +172,6 @@ TEST(Readers, TellALanguageByTheEndingOfTheName) {
   for (const char* const file : {"x", "x.tp", ".mod", "mod", "x.mo", "x.mod.", ""})
     EXPECT_EQ(language_of(file), nullptr) << file;
   EXPECT_EQ(known_endings(), ".mod, .prg, .ls, .src, .dat, .script");
-}
-
-TEST(Readers, ATargetThatAnotherProgramMovesToIsNotTouched) {
-  const std::string target = "CONST robtarget pA:=[[1,2,3],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];\n";
-  const std::string move = "PROC m() MoveL PA,v1,fine,tool0; ENDPROC\n";
-  Program own = read_bytes("a.mod", target + move);
-  EXPECT_EQ(free_targets(own), (Names_{"pA"}));
-  settle_between(own, read_bytes("b.mod", "PROC x() MoveL pB,v1,fine,tool0; ENDPROC\n"));
-  EXPECT_EQ(free_targets(own), (Names_{"pA"}));
-  settle_between(own, read_bytes("b.mod", "\n" + move));
-  EXPECT_EQ(named(own, "pA").why, "b.mod:2 moves to it too");
 }
 
 TEST(Readers, AToolThatStandsInTheCellIsNotTakenForOneOfTheArm) {

@@ -47,7 +47,7 @@ TEST(Rewriting, OnlyTheDigitsOfTargetsChangeWhateverTheLineEndsAndTheCodePage) {
       }
       std::vector<Source> again;
       for (std::size_t s = 0; s < now.size(); ++s) again.push_back({p.sources[s].file, now[s]});
-      const Program q = read_program(*language_of(file), again);
+      const Program q = read_programs(*language_of(file), {again}).at(0);
       ASSERT_EQ(q.targets.size(), p.targets.size());
       for (std::size_t t = 0; t < q.targets.size(); ++t) {
         const auto before = values_of(p.targets[t].written),

@@ -7,7 +7,7 @@ MODULE Traps
   PERS wobjdata wBelt:=[FALSE,FALSE,"CNV1",[[1300,100,0],[1,0,0,0]],[[0,0,20],[1,0,0,0]]];
   CONST robtarget good1:=[[1400,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST robtarget good2:=[[1450.5,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
-  CONST robtarget good3:=[[1.1,2,880],[0,0,1,0],[0,0,0,0],[0,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget good3:=[[1.1,2,880],[0,0,1,0],[0,0,0,0],[9E9,9E+09,9E9,9E9,9E9,9E9]];
   VAR robtarget trapAssigned:=[[1401,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   VAR robtarget trapComponent:=[[1402,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST robtarget trapTwoTools:=[[1403,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -25,6 +25,10 @@ MODULE Traps
   CONST robtarget trapArray{2}:=[[[1415,1,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[1416,1,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]];
   CONST robtarget trapNoRotation:=[[1417,100,900],[0.2,0,1,0.4],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST robtarget trapToolChosen:=[[1418,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget trapExternal:=[[1419,100,900],[0,0,1,0],[0,0,0,0],[0,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget trapCorr:=[[1420,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget trapFrameChosen:=[[1421,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget trapNamed:=[[1422,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST jointtarget trapJoints:=[[0,-30,30,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
     MoveAbsJ trapJoints, v100, fine, tGun;
@@ -57,6 +61,11 @@ MODULE Traps
     MoveL pElsewhere, v100, fine, tGun;
     MoveL [[1400,100,910],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tGun;
     MoveC good1, good2, v100, fine, tGun;
+    MoveL trapExternal, v100, fine, tGun;
+    MoveL trapCorr, v100, fine, tGun \Corr;
+    MoveL trapFrameChosen, v100, fine, tGun \WObj?wTable;
+    SetDataVal "trapNamed", p;
+    MoveL trapNamed, v100, fine, tGun;
   ENDPROC
   PROC second(robtarget trapParameter)
     CONST robtarget trapTwice:=[[1430,100,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
