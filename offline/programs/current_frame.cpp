@@ -56,7 +56,11 @@ void CurrentFrame::end_block() {
   if (inside_block()) close(Kind::kEnd);
 }
 
-void CurrentFrame::end() { inside_block() ? end_block() : end_routine(); }
+bool CurrentFrame::end() {
+  const bool block = inside_block();
+  block ? end_block() : end_routine();
+  return !block;
+}
 
 void CurrentFrame::set(What what, std::string name) {
   steps_.push_back({.kind = Kind::kSet, .what = what, .name = std::move(name)});
@@ -82,6 +86,7 @@ void CurrentFrame::jump() {
 
 std::size_t CurrentFrame::move() {
   steps_.push_back({.kind = Kind::kMove});
+  if (!routine_name().empty()) own_.moves.insert(routine_name());
   return moves_++;
 }
 

@@ -28,7 +28,7 @@ class CurrentFrame {
   void block(bool loop);
   void branch();  // ELSE, CASE: where the innermost block began
   void end_block();
-  void end();  // of whichever is innermost
+  bool end();  // of whichever is innermost: true for a routine
   void set(What what, std::string name);
   void call(const std::string& name, bool any_time = false);
   void label();

@@ -30,6 +30,7 @@ class FanucReader {
   void read() {
     program_.tools["0"].X = Transformd();
     program_.frames["0"].X = Transformd();
+    if (tokens_.is(0, "/") && tokens_.is(1, "prog")) name_ = tokens_.lower(2);
     attributes();
     std::size_t begin = section("mn"), positions = section("pos");
     for (std::size_t i = positions; i < tokens_.size(); ++i)
@@ -41,6 +42,7 @@ class FanucReader {
       statement(from, std::min(i, tokens_.size()));
       from = i + 1;
     }
+    if (!program_.moves.empty()) program_.facts.moves.insert(name_);
     for (Target& target : program_.targets)
       spoil(target, own_, "state them in a program that does not follow a line");
     Names(program_).look_elsewhere(around_);
@@ -194,9 +196,24 @@ class FanucReader {
                          "state it as a position of the program");
   }
 
+  /// CALL of a program that moves: from there on the arm may be anywhere.
+  void call(std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k + 1 < to; ++k) {
+      if (!tokens_.is(k, "call") && !tokens_.is(k, "run")) continue;
+      program_.facts.calls[name_].insert(tokens_.lower(k + 1));
+      if (around_.moves.contains(tokens_.lower(k + 1))) program_.moves.push_back({});
+    }
+  }
+
   /// A statement that is no move: what it does to positions and frames.
   void other(std::size_t from, std::size_t to) {
+    call(from, to);
     for (std::size_t k = from; k < to; ++k) {
+      if (tokens_.is(k, "p") && tokens_.is(k + 1, "[") && !is_position(k))  // P[R[1]]=LPOS
+        for (Target& target : program_.targets)
+          spoil(target,
+                fmt::format("line {} uses a position whose number is computed", tokens_.line(k)),
+                "name positions by their numbers there");
       if (is_position(k))
         if (const auto at = index_.find(std::string(tokens_.text(k + 2))); at != index_.end())
           spoil(
@@ -249,7 +266,8 @@ class FanucReader {
   const Facts& around_;
   Tokens tokens_;
   std::map<std::string, int, std::less<>> index_;
-  std::string own_;  // why no target of this program may be touched, or empty
+  std::string name_;  // of the program
+  std::string own_;   // why no target of this program may be touched, or empty
 };
 
 }  // namespace

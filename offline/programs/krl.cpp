@@ -20,6 +20,8 @@ namespace {
 constexpr std::array kPoseParts{"x", "y", "z", "a", "b", "c"};
 constexpr std::array kAxisParts{"a1", "a2", "a3", "a4", "a5", "a6"};
 
+const std::string kInCell = "(the tool stands in the cell)";
+
 /// The numbers of an aggregate by their names; empty if anything in it is computed.
 using Aggregate = std::map<std::string, Number>;
 
@@ -45,6 +47,7 @@ class KrlReader {
     for (std::size_t m = 0; m < program_.moves.size(); ++m) {
       Move& move = program_.moves[m];
       if (move.tool.empty()) move.tool = tools[m];
+      if (in_cell_) move.tool = kInCell;  // statements that name a tool leave $IPO_MODE as it is
       if (move.frame.empty()) move.frame = bases[m];
     }
     names_.look_elsewhere(around_);
@@ -159,7 +162,7 @@ class KrlReader {
   }
 
   static std::string number_name(const Aggregate& from, const char* name) {
-    if (from.contains("#tcp")) return "(the tool stands in the cell)";
+    if (from.contains("#tcp")) return kInCell;
     const auto at = from.find(name);
     return at == from.end() ? "default" : fmt::format("{:.0f}", at->second.value);
   }
@@ -240,13 +243,19 @@ class KrlReader {
       return std::any_of(words.begin(), words.end(), [&](const char* w) { return t.is(i, w); });
     };
     const bool defines = i > 0 && (one_of_defs(t, i - 1) || one_of_defs(t, i - 2));
-    if (t.is(i + 1, "(") && !defines) flow_.call(t.lower(i), any_time(t, i));
+    if (t.is(i + 1, "(") && !defines) {
+      flow_.call(t.lower(i), any_time(t, i));
+      if (around_.moves.contains(t.lower(i))) somewhere();
+    }
     // Sensors and technology packages that shift the targets of all moves.
     if (one_of({"rsi_movecorr", "rsi_on", "vectormoveon"})) names_.displace(t, i);
     const bool global = i > 0 && t.is(i - 1, "global");
     if (!begins(t, i) && !global) return;
-    if (one_of_defs(t, i)) flow_.routine(t.lower(i + (t.is(i, "def") ? 1 : 2)));
-    if (one_of({"end", "endfct"})) flow_.end_routine();
+    if (one_of_defs(t, i)) begin_routine(t, i);
+    if (one_of({"end", "endfct"})) {
+      flow_.end_routine();
+      if (!program_.moves.empty()) somewhere();
+    }
     if (one_of({"for", "while", "loop", "repeat"})) flow_.block(true);
     if (one_of({"if", "switch"})) flow_.block(false);
     if (one_of({"else", "case", "default"})) flow_.branch();
@@ -257,6 +266,17 @@ class KrlReader {
     if (one_of({"endspline"})) spline_ = false;
     if (one_of({"$robroot"})) names_.displace(t, i);
   }
+
+  /// DEF name(...), DEFFCT INT name(...)
+  void begin_routine(const Tokens& t, std::size_t i) {
+    std::size_t open = i + 1;
+    while (!ends(t, open) && !t.is(open, "(")) ++open;
+    if (!program_.moves.empty()) somewhere();
+    flow_.routine(t.lower(open - 1));
+  }
+
+  /// From here on the arm may be anywhere: other moves than those of the text before came between.
+  void somewhere() { push({.tool = "default", .frame = "default"}); }
 
   static bool one_of_defs(const Tokens& t, std::size_t i) {
     return t.is(i, "def") || t.is(i, "deffct");
@@ -285,6 +305,11 @@ class KrlReader {
       program_.facts.assigned.insert(t.lower(i));
   }
 
+  /// "$IPO_MODE=#BASE", or that of a record whose tool says where it stands.
+  static bool arm_has_tool(const Tokens& t, std::size_t i) {
+    return (t.is(i + 2, "#") && t.is(i + 3, "base")) || t.is(i + 2, "sipo_mode");
+  }
+
   static bool reads_record(const Tokens& t, std::size_t i) {
     return t.is(i, "stool2") || t.is(i, "stool") || t.is(i, "sbase") || t.is(i, "sload") ||
            t.is(i, "sipo_mode");
@@ -300,13 +325,20 @@ class KrlReader {
       if (t.is(i + 3, "ex_base")) flow_.set(What::kFrame, "(computed)");
       if (t.is(i + 3, "initmov")) set_both("default");
     }
+    if (t.is(i - 1, "do") && (t.is(i, "$tool") || t.is(i, "$base"))) {  // TRIGGER ... DO $BASE=...
+      flow_.routine("(trigger)", true);
+      set_both("(computed)");
+      flow_.end_routine();
+    }
     if (!begins(t, i)) return;
     if (t.is(i, "$tool") && t.is(i + 1, ".")) flow_.set(What::kTool, "(computed)");
     if (t.is(i, "$base") && t.is(i + 1, ".")) flow_.set(What::kFrame, "(computed)");
     if (t.is(i, "fdat_act") && t.is(i + 1, ".")) set_both("(computed)");
     if (!t.is(i + 1, "=")) return;
-    if (t.is(i, "$ipo_mode") && t.is(i + 3, "tcp"))
-      flow_.set(What::kTool, "(the tool stands in the cell)");
+    if (t.is(i, "$ipo_mode") && !arm_has_tool(t, i)) {
+      in_cell_ = true;
+      flow_.set(What::kTool, kInCell);
+    }
     if (t.is(i, "fdat_act")) {
       std::size_t k = i + 2;
       const auto known = fdat_.find(t.lower(k));
@@ -371,7 +403,10 @@ class KrlReader {
     for (; !ends(t, k) && !t.is(k, "with"); ++k) {
     }
     for (; !ends(t, k); ++k) {
+      if (t.is(k, "$tool") && t.is(k + 1, ".")) move.tool = "(computed)";
+      if (t.is(k, "$base") && t.is(k + 1, ".")) move.frame = "(computed)";
       if (!t.is(k + 1, "=")) continue;
+      in_cell_ = in_cell_ || (t.is(k, "$ipo_mode") && !arm_has_tool(t, k));
       if (t.is(k, "$tool")) move.tool = stated(t, k + 2, "tool_data", program_.tools);
       if (t.is(k, "$base")) move.frame = stated(t, k + 2, "base_data", program_.frames);
     }
@@ -466,7 +501,8 @@ class KrlReader {
   std::map<std::string, Aggregate> fdat_;
   std::map<std::size_t, std::size_t> first_steps_;  // of each source
   CurrentFrame flow_;
-  bool spline_ = false;  // inside a block that states what its moves are made with
+  bool in_cell_ = false;  // the program says so of a tool, without a record
+  bool spline_ = false;   // inside a block that states what its moves are made with
 };
 
 }  // namespace

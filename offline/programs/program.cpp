@@ -16,6 +16,7 @@ void Facts::add(const Facts& other) {
     calls[routine].insert(called.begin(), called.end());
   sets_tool.insert(other.sets_tool.begin(), other.sets_tool.end());
   sets_frame.insert(other.sets_frame.begin(), other.sets_frame.end());
+  moves.insert(other.moves.begin(), other.moves.end());
   assigned.insert(other.assigned.begin(), other.assigned.end());
   joint_configurations = joint_configurations && other.joint_configurations;
   linear_configurations = linear_configurations && other.linear_configurations;
@@ -23,7 +24,7 @@ void Facts::add(const Facts& other) {
 }
 
 void Facts::close() {
-  for (std::set<std::string>* setters : {&sets_tool, &sets_frame})
+  for (std::set<std::string>* setters : {&sets_tool, &sets_frame, &moves})
     for (std::size_t before = setters->size() + 1; before != setters->size();) {
       before = setters->size();
       for (const auto& [routine, called] : calls)

@@ -84,7 +84,7 @@ enum class Motion { kJoint, kLinear, kVia, kCircleEnd };
 
 struct Move {
   Motion motion = Motion::kJoint;
-  int target = -1;  // index; -1: none that is known
+  int target = -1;  // index; -1: none, and where the arm is now is not known
   std::string tool = {}, frame = {};
   int line = 0;
   bool configured = false;  // the controller goes to the configuration that the target states
@@ -101,13 +101,13 @@ struct Facts {
   std::map<std::string, std::vector<Place>> mentions;  // one in a file, and two at most: of words
                                                        // but declarations and goals of moves
   std::map<std::string, std::set<std::string>> calls;  // of each routine
-  std::set<std::string> sets_tool, sets_frame;         // routines
+  std::set<std::string> sets_tool, sets_frame, moves;  // routines
   std::set<std::string> assigned;                      // records that are changed
   bool joint_configurations = true, linear_configurations = true;  // they are looked at
   std::string displaced = {};                                      // why all targets move, or none
 
-  /// Joins what another program says. Then close() finds the routines that set a tool or a frame
-  /// through others.
+  /// Joins what another program says. Then close() finds the routines that set a tool or a frame,
+  /// or move, through others.
   void add(const Facts& other);
   void close();
 };

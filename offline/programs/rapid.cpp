@@ -139,9 +139,10 @@ class RapidReader {
   /// 9E9 is an axis that there is not.
   static bool external(const Value& axes) {
     constexpr double kNone = 9e9;
-    return std::any_of(axes.items.begin(), axes.items.end(), [](const Value& axis) {
-      return !axis.number || axis.number->value != kNone;
-    });
+    return axes.items.size() != 6 ||
+           std::any_of(axes.items.begin(), axes.items.end(), [](const Value& axis) {
+             return !axis.number || axis.number->value != kNone;
+           });
   }
 
   /// cf1, cf4, cf6 are quarter turns of axes 1, 4, 6. cfx is 0 to 7: 4 with the wrist behind axis
@@ -235,17 +236,31 @@ class RapidReader {
     }
   }
 
+  /// PROC main(), and calls of routines that move.
+  void routine(std::size_t i) {
+    const bool begins = i > 0 && (tokens_.is(i - 1, "proc") || tokens_.is(i - 1, "trap"));
+    if (begins) routine_ = tokens_.lower(i);
+    if (begins ? !program_.moves.empty() : around_.moves.contains(tokens_.lower(i))) somewhere();
+    if (!routine_.empty() && !begins) program_.facts.calls[routine_].insert(tokens_.lower(i));
+  }
+
+  /// From here on the arm may be anywhere: other moves than those of the text before came between.
+  void somewhere() { program_.moves.push_back({}); }
+
   void instruction(std::size_t i) {
     if (!tokens_.is_word(i)) return;
     if (one_of(kReadingFunctions, i)) return reading_function(i);
+    routine(i);
     const auto* words = std::find_if(std::begin(kRapidMoves), std::end(kRapidMoves),
                                      [&](const MoveWords& w) { return tokens_.is(i, w.name); });
     const bool moves = words != std::end(kRapidMoves);
     if (!moves && !one_of(kReaders, i)) return;
     const auto given = arguments(i + 1);
+    if (!moves) somewhere();
     if (!moves && given.size() > 2) allow_names(given.back(), given);
     if (!moves || given.size() <= words->tool) return;
     allow_names(given[words->tool], given);
+    if (!routine_.empty()) program_.facts.moves.insert(routine_);
     const bool joint = words->motion == Motion::kJoint;
     Move move{.motion = words->motion,
               .tool = name_at(given[words->tool].begin),
@@ -303,6 +318,7 @@ class RapidReader {
   const Facts& around_;
   Names names_;
   Tokens tokens_;
+  std::string routine_;  // the one around
 };
 
 }  // namespace

@@ -75,14 +75,22 @@ class UrscriptReader {
     if (!tokens_.is_word(i)) return;
     const bool thread = tokens_.is(i, "thread") || tokens_.is(i, "sec");
     const bool loop = tokens_.is(i, "while") || tokens_.is(i, "for");
-    if (tokens_.is(i, "end")) flow_.end();
-    if (begins(i) && (thread || tokens_.is(i, "def"))) flow_.routine(tokens_.lower(i + 1), thread);
+    if (tokens_.is(i, "end") && flow_.end() && !program_.moves.empty()) somewhere();
+    if (begins(i) && (thread || tokens_.is(i, "def"))) {
+      if (!program_.moves.empty()) somewhere();
+      flow_.routine(tokens_.lower(i + 1), thread);
+    }
     if (begins(i) && (loop || tokens_.is(i, "if"))) flow_.block(loop);
     if (begins(i) && (tokens_.is(i, "elif") || tokens_.is(i, "else"))) flow_.branch();
     const bool declares = i > 0 && (tokens_.is(i - 1, "def") || tokens_.is(i - 1, "thread") ||
                                     tokens_.is(i - 1, "sec"));
-    if (tokens_.is(i + 1, "(") && !declares) flow_.call(tokens_.lower(i));
+    if (!tokens_.is(i + 1, "(") || declares) return;
+    flow_.call(tokens_.lower(i));
+    if (around_.moves.contains(tokens_.lower(i))) somewhere();
   }
+
+  /// From here on the arm may be anywhere: other moves than those of the text before came between.
+  void somewhere() { push({.frame = "base"}); }
 
   void set_tcp(std::size_t i) {
     if (!tokens_.is(i, "set_tcp") || !tokens_.is(i + 1, "(")) return;
@@ -90,7 +98,7 @@ class UrscriptReader {
     const auto written = literal(k);
     const bool whole = written && (tokens_.is(k, ")") || tokens_.is(k, ","));
     const auto X = whole ? pose_of(*written) : std::nullopt;
-    std::string key = fmt::format("set_tcp of line {}", tokens_.line(i));
+    std::string key = fmt::format("set_tcp of {}:{}", program_.sources[0].file, tokens_.line(i));
     if (X) key = "set_tcp(" + tokens_.whole(i + 2, k) + ")";
     program_.tools[key] = {.X = X, .why = X ? "" : "its numbers are computed"};
     flow_.set(CurrentFrame::What::kTool, key);

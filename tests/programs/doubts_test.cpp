@@ -185,6 +185,7 @@ std::string tools_of(std::string text) {
   const Program p = read_bytes("x.script", text);
   std::string out;
   for (const Move& move : p.moves) {
+    if (move.target < 0) continue;
     const auto at = p.tools.find(move.tool);
     out += at == p.tools.end() || !at->second.X ? "-" : at->second.X->p(2) < 0.15 ? "A" : "B";
   }
@@ -287,6 +288,26 @@ TEST(Doubts, ASplineBlockSaysWhatItsMovesAreMadeWith) {
             "known");
 }
 
+TEST(Doubts, AToolThatStandsInTheCellStaysThereWhateverToolIsNamed) {
+  const auto tool = [](const std::string& body) {
+    return read_bytes("x.src", "DEF x()\n" + body + "END\n").moves.at(0).tool;
+  };
+  const std::string go = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
+  EXPECT_EQ(tool("$IPO_MODE=#BASE\n$TOOL=TOOL_DATA[1]\n" + go + "\n"), "1");
+  EXPECT_EQ(tool("$IPO_MODE=#TCP\n$TOOL=TOOL_DATA[1]\n" + go + "\n"),
+            "(the tool stands in the cell)");
+  EXPECT_EQ(tool("$IPO_MODE=mode\n$TOOL=TOOL_DATA[1]\n" + go + "\n"),
+            "(the tool stands in the cell)");
+  EXPECT_EQ(tool("$TOOL=TOOL_DATA[1]\nS" + go + " WITH $IPO_MODE=#TCP\n"),
+            "(the tool stands in the cell)");
+  EXPECT_EQ(tool("$TOOL=TOOL_DATA[1]\nTRIGGER WHEN DISTANCE=0 DELAY=0 DO $TOOL=TOOL_DATA[2]\n" +
+                 go + "\n"),
+            "(set by a thread or an interrupt)");
+  EXPECT_EQ(
+      tool("f()\n$TOOL=TOOL_DATA[1]\nf()\n" + go + "\nEND\nDEFFCT INT f()\n$TOOL=TOOL_DATA[2]\n"),
+      "(set by a routine that is called)");
+}
+
 TEST(Doubts, AnElementOfBaseDataIsKnownOnlyIfItIsStatedOnceBeforeAllMoves) {
   const std::string pose = "{X 1,Y 0,Z 0,A 0,B 0,C 0}", set = "BASE_DATA[3]=" + pose + "\n";
   const std::string go = "$BASE=BASE_DATA[3]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\n";
@@ -347,6 +368,44 @@ TEST(Doubts, TheCopyInAFoldIsFoundAtWholeNumbersOnlyAndWrittenOnce) {
   EXPECT_EQ(count, 3U) << now;
 }
 
+// -- Where the arm was
+
+/// The moves of the first program: "m", or "?" where the arm may be anywhere from there on.
+std::string way(const std::string& ending, const std::vector<std::string>& texts) {
+  std::string out;
+  const auto programs = read_together(ending, texts);
+  for (const Move& move : programs[0].moves) out += move.target < 0 ? "?" : "m";
+  return out;
+}
+
+TEST(Doubts, MovesOfOtherRoutinesComeBetweenThoseOfTheText) {
+  const std::string go = "MoveL pA,v1,fine,tool0;\n";
+  const std::string main = robtarget("pA") + "PROC main()\n" + go + "sub;\n" + go + "ENDPROC\n";
+  EXPECT_EQ(way(".mod", {main}), "mm");
+  EXPECT_EQ(way(".mod", {main, "PROC sub()\nMoveL pB,v1,fine,tool0;\nENDPROC\n"}), "m?m");
+  EXPECT_EQ(way(".mod", {main, "PROC sub()\ndeep;\nENDPROC\nPROC deep()\n" + go + "ENDPROC\n"}),
+            "m?m");
+  EXPECT_EQ(way(".mod", {main + "PROC x()\n" + go + "ENDPROC\n"}), "mm?m");
+  EXPECT_EQ(way(".mod", {robtarget("pA") + "PROC main()\nArcL p1,v1,s,w,fine,tool0;\n" + go}),
+            "?m");
+  const std::string lin = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\n";
+  const std::string krl = "DEF a()\n" + lin + "sub()\n" + lin + "END\n";
+  EXPECT_EQ(way(".src", {krl}), "mm?");
+  EXPECT_EQ(way(".src", {krl, "DEF sub()\n" + lin + "END\n"}), "m?m?");
+  EXPECT_EQ(way(".src", {"DEF a()\nsub()\n" + lin, "DEF sub()\n" + lin + "END\n"}), "?m");
+  const std::string ur = "movel(p[1,0,0,0,0,0])\n";
+  EXPECT_EQ(way(".script", {"def x():\n" + ur + "y()\n" + ur + "end\n"}), "mm?");
+  EXPECT_EQ(way(".script", {"def y():\n" + ur + "end\ndef x():\n" + ur + "y()\n" + ur + "end\n"}),
+            "m??m?m?");
+  const std::string ls =
+      "/PROG A\n/MN\n 1:L P[1] 9mm/sec FINE ;\n 2: CALL B ;\n 3:L P[1] 9mm/sec "
+      "FINE ;\n/POS\nP[1]{\n GP1:\n X = 1 mm, Y = 1 mm, Z = 1 mm,\n W = 0 deg, P = 0 "
+      "deg, R = 0 deg\n};\n/END\n";
+  std::string b = ls;
+  EXPECT_EQ(way(".ls", {ls}), "mm");
+  EXPECT_EQ(way(".ls", {ls, b.replace(6, 1, "B")}), "m?m");
+}
+
 // -- What moves tools, frames and targets
 
 TEST(Doubts, ToolsAndFramesThatChangeOrMoveAreMarkedAsSuch) {
@@ -392,6 +451,7 @@ TEST(Doubts, MotionThatMovesTargetsListsThem) {
         "TOOL_OFFSET CONDITION PR[1]", "VOFFSET CONDITION VR[1]", "MP Offset PR[1] RPM[1]"})
     EXPECT_FALSE(fanuc("", line)) << line;
   EXPECT_TRUE(fanuc("", "Track End"));
+  EXPECT_FALSE(fanuc("", "P[R[1]]=LPOS")) << "it may be any of them";
   for (const std::string line : {"track_conveyor_linear(p[1,0,0,0,0,0],1)", "path_offset_enable()",
                                  "force_mode(tool_pose(),a,b,2,c)"})
     EXPECT_TRUE(
@@ -411,6 +471,7 @@ TEST(Doubts, ATargetKnowsWhetherItMovesExternalAxes) {
   };
   EXPECT_FALSE(rapid(kNoAxes) || rapid("[9E9,9E+09,9E+9,9000000000,9E9,9E9]"));
   EXPECT_TRUE(rapid("[0,9E9,9E9,9E9,9E9,9E9]") && rapid("[9E9,9E9,9E9,9E9,9E9,-12.5]"));
+  EXPECT_TRUE(rapid("where"));
   const auto krl = [](const std::string& axes) {
     return read_bytes("x.src", "DECL E6POS P={X 1,Y 2,Z 3,A 0,B 0,C 0" + axes + "}\n")
         .targets[0]
