@@ -201,7 +201,8 @@ class FanucReader {
     for (std::size_t k = from; k + 1 < to; ++k) {
       if (!tokens_.is(k, "call") && !tokens_.is(k, "run")) continue;
       program_.facts.calls[name_].insert(tokens_.lower(k + 1));
-      if (around_.moves.contains(tokens_.lower(k + 1))) program_.moves.push_back({});
+      const bool any = tokens_.is(k + 2, "[");  // CALL SR[1]
+      if (any || around_.moves.contains(tokens_.lower(k + 1))) program_.moves.push_back({});
     }
   }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <tuple>
 
 #include "programs/current_frame.hpp"
 #include "programs/languages.hpp"
@@ -53,6 +54,7 @@ class KrlReader {
     names_.look_elsewhere(around_);
     for (const Tokens& file : files_) names_.look_for_mentions(file);
     copies();
+    shared_copies();
   }
 
  private:
@@ -491,6 +493,29 @@ class KrlReader {
           }
       }
       if (!inside) target.copies.clear();
+    }
+  }
+
+  /// Two moves in one fold with the same numbers share their copy: made with different tools, they
+  /// need different ones.
+  void shared_copies() {
+    std::map<std::pair<std::size_t, std::size_t>, const Move*> owners;
+    for (const Move& move : program_.moves) {
+      if (move.target < 0) continue;
+      for (const Number& copy : program_.targets[static_cast<std::size_t>(move.target)].copies) {
+        const Move& other =
+            *owners.emplace(std::pair(copy.source, copy.begin), &move).first->second;
+        if (std::tie(other.tool, other.frame, other.configured) ==
+            std::tie(move.tool, move.frame, move.configured))
+          continue;
+        for (const int t : {other.target, move.target}) {
+          Target& target = program_.targets[static_cast<std::size_t>(t)];
+          if (!target.why.empty()) continue;
+          target.why =
+              "the comment of its fold stands for two moves, with different tools or bases";
+          target.help = "give each of them a fold of its own";
+        }
+      }
     }
   }
 

@@ -80,7 +80,8 @@ class RapidReader {
     }
     if (!tokens_.is(i, "setdataval")) return;
     const std::string_view name = tokens_.text(i + 1);
-    if (name.size() > 2 && name.front() == '"' && name.back() == '"') {
+    const bool plain = name.find_first_of("/{\\[") == std::string_view::npos;
+    if (plain && name.size() > 2 && name.front() == '"' && name.back() == '"') {
       names_.mention(tokens_, i, lower_case(name.substr(1, name.size() - 2)));
     } else {
       names_.displace(tokens_, i);
@@ -248,6 +249,7 @@ class RapidReader {
   void somewhere() { program_.moves.push_back({}); }
 
   void instruction(std::size_t i) {
+    if (tokens_.is(i, "%") || tokens_.is(i, "callbyvar")) somewhere();  // a call of any routine
     if (!tokens_.is_word(i)) return;
     if (one_of(kReadingFunctions, i)) return reading_function(i);
     routine(i);

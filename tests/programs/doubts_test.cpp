@@ -138,6 +138,9 @@ TEST(Doubts, EveryMentionOfAToolOrFrameThatIsNoMoveSpoilsIt) {
   const Program any = read_bytes("m.mod", tool_module("SetDataVal name,tOld;"));
   EXPECT_TRUE(any.tools.at(kAllFrames).moving && any.frames.at(kAllFrames).moving);
   EXPECT_FALSE(free(any, "pA"));
+  EXPECT_TRUE(read_bytes("m.mod", tool_module("SetDataVal \"T_ROB1/tG\",tOld;"))
+                  .tools.at(kAllFrames)
+                  .moving);
 }
 
 TEST(Doubts, WhatAnotherProgramDoesCountsAsWell) {
@@ -366,6 +369,9 @@ TEST(Doubts, TheCopyInAFoldIsFoundAtWholeNumbersOnlyAndWrittenOnce) {
        (at = now.find("{X 1234.56,Y 10,Z 900,A 0,B 170,C 5}", at)) != std::string::npos; ++at)
     ++count;
   EXPECT_EQ(count, 3U) << now;
+  const std::string fold = "DEF x()\n$BASE=$NULLFRAME\n;FOLD LIN {" + pose + "};%{PE}\nLIN {" +
+                           pose + "}\n$TOOL=TOOL_DATA[2]\nLIN {" + pose + "}\n;ENDFOLD\nEND\n";
+  EXPECT_TRUE(free_targets(read_bytes("x.src", fold)).empty()) << "one comment for two tools";
 }
 
 // -- Where the arm was
@@ -385,6 +391,11 @@ TEST(Doubts, MovesOfOtherRoutinesComeBetweenThoseOfTheText) {
   EXPECT_EQ(way(".mod", {main, "PROC sub()\nMoveL pB,v1,fine,tool0;\nENDPROC\n"}), "m?m");
   EXPECT_EQ(way(".mod", {main, "PROC sub()\ndeep;\nENDPROC\nPROC deep()\n" + go + "ENDPROC\n"}),
             "m?m");
+  for (const std::string call : {"%\"sub\"%;", "CallByVar \"sub\",1;"}) {
+    std::string other = main;
+    EXPECT_EQ(way(".mod", {other.replace(other.find("sub;"), 4, call)}).back(), 'm');
+    EXPECT_NE(way(".mod", {other}), "mm") << call;
+  }
   EXPECT_EQ(way(".mod", {main + "PROC x()\n" + go + "ENDPROC\n"}), "mm?m");
   EXPECT_EQ(way(".mod", {robtarget("pA") + "PROC main()\nArcL p1,v1,s,w,fine,tool0;\n" + go}),
             "?m");
@@ -403,6 +414,8 @@ TEST(Doubts, MovesOfOtherRoutinesComeBetweenThoseOfTheText) {
       "deg, R = 0 deg\n};\n/END\n";
   std::string b = ls;
   EXPECT_EQ(way(".ls", {ls}), "mm");
+  std::string chosen = ls;
+  EXPECT_EQ(way(".ls", {chosen.replace(ls.find("CALL B"), 6, "CALL SR[1]")}), "m?m");
   EXPECT_EQ(way(".ls", {ls, b.replace(6, 1, "B")}), "m?m");
 }
 
