@@ -5,11 +5,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fit/constants.hpp"
-#include "numbers/tails.hpp"
 
 namespace plumb::offline {
+namespace {
+
+/// Mean size of a normal number with sigma 1.
+const double kMeanSize = std::sqrt(2.0 / M_PI);
+
+bool is_length_of_arm(const Estimate& e) { return e.of_robot && e.is_length && e.unit.empty(); }
+
+/// 1 sigma by which lengths differ from nominal one by one, the common scale taken off. Their mean
+/// size, because a length may hold what belongs to another one. Infinite where they are too few.
+double spread_m(const std::vector<Estimate>& estimates, double longer) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Estimate& e : estimates) {
+    if (!is_length_of_arm(e)) continue;
+    sum += std::abs(e.value - (1.0 + longer) * e.nominal);
+    ++count;
+  }
+  if (count < kFewestLengths) return std::numeric_limits<double>::infinity();
+  return sum / (kMeanSize * count);
+}
+
+}  // namespace
 
 bool CommonScale::unusual() const {
   return std::abs(longer) > kUnusualScale * std::hypot(usual, sigma);
@@ -17,28 +39,20 @@ bool CommonScale::unusual() const {
 
 std::optional<CommonScale> common_scale(const Calibration& c, double prior_m) {
   Eigen::VectorXd along = Eigen::VectorXd::Zero(c.covariance.rows());
-  double squares = 0.0, change = 0.0, all = 0.0;
-  int count = 0;
+  double squares = 0.0, change = 0.0;
   for (std::size_t i = 0; i < c.estimates.size(); ++i) {
     const Estimate& e = c.estimates[i];
     const auto k = static_cast<Eigen::Index>(i);
-    if (!e.of_robot || !e.is_length || !e.unit.empty() || k >= along.size()) continue;
+    if (!is_length_of_arm(e) || k >= along.size()) continue;
     along(k) = e.nominal;
     squares += e.nominal * e.nominal;
     change += e.nominal * (e.value - e.nominal);
-    all += std::pow(e.value - e.nominal, 2);
-    ++count;
   }
   if (squares == 0.0) return std::nullopt;
-  // Lengths that differ from nominal one by one, by more than arms do, have a common part, too.
-  // Of few lengths their spread is hardly known, which Student's t takes into account.
-  const int free = std::max(1, count - 1);
-  const double single_m = std::sqrt((all - change * change / squares) / free);
-  const double times = student_quantile(kUsualShare, free) / kUnusualScale;
-  const double built_m = std::max(prior_m, times * single_m);
-  return CommonScale{.longer = change / squares,
-                     .sigma = std::sqrt(std::max(0.0, along.dot(c.covariance * along))) / squares,
-                     .usual = built_m / std::sqrt(squares)};
+  CommonScale out{.longer = change / squares};
+  out.sigma = std::sqrt(std::max(0.0, along.dot(c.covariance * along))) / squares;
+  out.usual = std::max(prior_m, spread_m(c.estimates, out.longer)) / std::sqrt(squares);
+  return out;
 }
 
 Problem scale_remark(const CommonScale& scale) {

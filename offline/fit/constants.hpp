@@ -87,9 +87,10 @@ inline constexpr double kNegligible = 1e-7;
 /// Standard deviation of what arms differ from nominal [m or rad]: at most, whatever the cell says,
 /// and where the cell sets its prior to 0. arms; the latter is the default of [fit] prior_mm.
 inline constexpr double kMostBuilt = 10e-3, kUnsetPrior = 0.5e-3;
-/// Standard deviations among arms beyond which the common scale of all lengths is doubted, and the
-/// share of all arms that lie below. chosen; set on 2026-11-29.
-inline constexpr double kUnusualScale = 4.0, kUsualShare = 1.0 - 3.2e-5;
+/// Standard deviations among arms beyond which the common scale of all lengths is doubted; with
+/// fewer lengths it is not judged. chosen; set on 2026-11-29.
+inline constexpr double kUnusualScale = 5.0;
+inline constexpr int kFewestLengths = 4;
 /// Nominal values are the same within this [SI]: a rounding of the files. data.
 inline constexpr double kSameNominal = 1e-9;
 /// The largest share of the fitted readings that the earlier run may have seen. chosen; contract
