@@ -77,6 +77,7 @@ void CurrentFrame::call(const std::string& name, bool any_time) {
 void CurrentFrame::label() { steps_.push_back({.kind = Kind::kLabel}); }
 
 void CurrentFrame::jump() {
+  label();  // nothing behind it is sure to be done
   for (std::size_t k = open_.size(); k-- > 0;)
     if (steps_[open_[k]].kind == Kind::kRoutine) {
       steps_[open_[k]].jumps = true;

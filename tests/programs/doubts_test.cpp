@@ -267,6 +267,7 @@ TEST(Doubts, WithJumpsAToolIsKnownOnlyIfNoneCanPassItBy) {
   EXPECT_EQ(tool(label + one + go + jump), "(set where a jump may pass it by)");
   EXPECT_EQ(tool("IF a THEN\n" + jump + "ENDIF\n" + one + label + go),
             "(set where a jump may pass it by)");
+  EXPECT_EQ(tool(jump + one + label + go), "(set where a jump may pass it by)");
   EXPECT_EQ(tool(jump + label + go), "default");
 }
 
