@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "arm/effect_binding.hpp"
@@ -25,6 +28,7 @@ using programs::Written;
 constexpr double kTurnedByFilter_rad = 1e-9;  // less is rounding: the orientation stays as it is
 constexpr double kSample_m = 0.01, kSample_rad = 0.1;  // between two points of a linear move
 constexpr double kFewest = 8, kMost = 500;             // points of a linear move
+constexpr double kSameJoints_rad = 1e-3;  // far less than from one solution to the next
 constexpr double kSameTool_m = 1e-6, kSameTool_rad = 1e-5;
 
 Targets one_target(const Transformd& X_BD) {
@@ -62,8 +66,7 @@ class ProgramFilter::One {
 
   Filtered run(const programs::Language& language) {
     for (const Move& move : program_.moves) go(move);
-    for (std::size_t t = 0; t < done_.size(); ++t)
-      if (!done_[t].seen) look(t);
+    for (std::size_t t = 0; t < done_.size(); ++t) look(t);
     for (std::size_t m = 1; m < program_.moves.size(); ++m)
       look_between(program_.moves[m - 1], program_.moves[m]);
     out_.bytes = programs::edited(program_, edits_);
@@ -80,9 +83,12 @@ class ProgramFilter::One {
   /// A target that was worked on.
   struct Done {
     bool seen = false, corrected = false;
-    Joints q;               // nominal, at the target
-    Transformd X_BD, X_BC;  // the program's tool: desired, and as it is written now
-    Transformd X_PT;        // the model's tool in the program's
+    Joints q;                        // nominal, at the target
+    std::string why, help;           // why they are not known, of a target that is else
+    std::optional<Transformd> X_BD;  // of the program's tool, desired; none: it is not known
+    Transformd X_BC;                 // the same as it is written now
+    Transformd X_BW;                 // of its work frame
+    Transformd X_PT;                 // the model's tool in the program's
     std::string tool;
   };
 
@@ -91,15 +97,68 @@ class ProgramFilter::One {
       last_ = near;
     if (move.target < 0) return last_.clear();
     const auto t = static_cast<std::size_t>(move.target);
-    if (!done_[t].seen) look(t);
+    visit(t, move.configured);
     last_ = done_[t].q;  // none: where the arm is now is not known
   }
 
+  /// A move goes there: finds the joints, which must be the same at every visit.
+  /// configured: the controller looks at the configuration then.
+  void visit(std::size_t t, bool configured) {
+    const Target& target = program_.targets[t];
+    Done& done = done_[t];
+    if (!may_be_corrected(target)) {
+      done.q.clear();
+    } else if (of_joints(target.written.notation)) {
+      done.q = joints_of(target.written);
+    } else if (done.X_BD || (!done.seen && place(target, done))) {
+      find_joints(target, configured ? target.configuration : programs::Configuration{}, done);
+    }
+    done.seen = true;
+  }
+
+  bool may_be_corrected(const Target& target) const {
+    return target.why.empty() && !(target.external_axes && !owner_.settings_.robot_stands);
+  }
+
+  void find_joints(const Target& target, const programs::Configuration& wanted, Done& done) {
+    auto found = owner_.solutions_.find(*done.X_BD * done.X_PT, wanted, last_);
+    if (!done.why.empty()) return done.q.clear();
+    if (found.q.empty()) {
+      done.why = found.why;
+      done.help = found.help;
+    } else if (!done.q.empty() && !same(done.q, found.q)) {
+      done.why = "moves reach it with different joint positions";
+      done.help = "give each of them a target of its own";
+    } else if (!side_agrees(target.configuration.side, found.q)) {
+      done.why = fmt::format("the wrist that was found for it contradicts '{}' of other targets",
+                             static_cast<char>(std::toupper(target.configuration.side)));
+      done.help = "say where the joints are before its move, by a target of joints";
+    } else {
+      done.q = std::move(found.q);
+      return;
+    }
+    done.q.clear();
+  }
+
+  static bool same(const Joints& a, const Joints& b) {
+    double far = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) far = std::max(far, std::abs(a[i] - b[i]));
+    return far < kSameJoints_rad;
+  }
+
+  /// One word for the side of axis 5 belongs to one sign of it.
+  bool side_agrees(char word, const Joints& q) {
+    if (word == 0 || q.size() != 6) return true;
+    const bool negative = q[4] < 0.0;
+    for (const auto& [other, its] : sides_)
+      if ((other == word) != (its == negative)) return false;
+    sides_.emplace(word, negative);
+    return true;
+  }
+
   void look(std::size_t t) {
-    done_[t].seen = true;
     const Target& target = program_.targets[t];
     const bool joints = of_joints(target.written.notation);
-    if (joints && target.why.empty()) done_[t].q = joints_of(target.written);
     if (joints && !owner_.settings_.joint_targets && !target.written.numbers.empty())
       ++out_.joint_targets;
     else if (!target.why.empty())
@@ -109,7 +168,9 @@ class ProgramFilter::One {
             "if none does: --robot-stands");
     else if (joints)
       correct_joints(target, done_[t]);
-    else
+    else if (!done_[t].why.empty())
+      refuse(target, done_[t].why, done_[t].help);
+    else if (done_[t].X_BD)
       correct_pose(target, done_[t]);
   }
 
@@ -187,44 +248,48 @@ class ProgramFilter::One {
     return !solved.faded;
   }
 
-  void correct_pose(const Target& target, Done& done) {
+  /// Where it is, if its tool, its frame and its numbers say so; else it is listed.
+  bool place(const Target& target, Done& done) {
     const FilterSettings& said = owner_.settings_;
     const Transformd* X_FP = frame("tool", target.tool, said.tools, program_.tools, target);
-    if (X_FP == nullptr) return;
+    if (X_FP == nullptr) return false;
     const Transformd* X_BW = frame("frame", target.frame, said.frames, program_.frames, target);
-    if (X_BW == nullptr) return;
+    if (X_BW == nullptr) return false;
     const auto X_WP = programs::pose_of(target.written);
-    if (!X_WP)
-      return leave(target, "its numbers are no pose: is its quaternion of length 1?",
-                   "mend its numbers");
+    if (!X_WP) {
+      leave(target, "its numbers are no pose: is its quaternion of length 1?", "mend its numbers");
+      return false;
+    }
     done.tool = target.tool;
     done.X_PT = X_FP->inverse() * from_pose(owner_.model_.nominal.tool);
+    done.X_BW = *X_BW;
     done.X_BD = *X_BW * *X_WP;
     note_tool(target.tool, done.X_PT);
-    const Transformd X_BT = done.X_BD * done.X_PT;
-    auto seed = owner_.solutions_.find(X_BT, target.configuration, last_);
-    if (seed.q.empty()) return refuse(target, seed.why, seed.help);
-    done.q = seed.q;
-    const CorrectedRow solved = correct(X_BT, seed.q, owner_.found_.inputs);
-    if (!counted(target, seed.q, solved)) return;
+    return true;
+  }
+
+  void correct_pose(const Target& target, Done& done) {
+    const Transformd X_BT = *done.X_BD * done.X_PT;
+    const CorrectedRow solved = correct(X_BT, done.q, owner_.found_.inputs);
+    if (!counted(target, done.q, solved)) return;
     const auto& q = solved.correction.q;
     if (!owner_.solutions_.agrees(target.configuration,
-                                  Joints(q.begin(), q.begin() + std::ssize(seed.q))))
+                                  Joints(q.begin(), q.begin() + std::ssize(done.q))))
       return refuse(target, "the correction would change the configuration or the turns it states",
                     "move it a little, or state the other configuration");
     Transformd X_BC = from_pose(solved.command);
     if (solved.moved_rad < kTurnedByFilter_rad) X_BC.R = X_BT.R;
-    const Transformd X_WC = X_BW->inverse() * X_BC * done.X_PT.inverse();
+    const Transformd X_WC = done.X_BW.inverse() * X_BC * done.X_PT.inverse();
     std::vector<double> old = programs::values_of(target.written);
     std::vector<double> values = programs::numbers_like(X_WC, target.written.notation, old);
     if (solved.moved_rad < kTurnedByFilter_rad)
       std::copy(old.begin() + 3, old.end(), values.begin() + 3);
     const auto written = write(target, values);
     done.corrected = true;
-    const Transformd now = *X_BW * *programs::pose_of(target.written.notation, written);
+    const Transformd now = done.X_BW * *programs::pose_of(target.written.notation, written);
     done.X_BC = now;
     add_size(solved);
-    out_.rounding_m = std::max(out_.rounding_m, (X_WC.p - (X_BW->inverse() * now).p).norm());
+    out_.rounding_m = std::max(out_.rounding_m, (X_WC.p - (done.X_BW.inverse() * now).p).norm());
   }
 
   void correct_joints(const Target& target, Done& done) {
@@ -276,14 +341,14 @@ class ProgramFilter::One {
     if (!a.corrected || !b.corrected || a.tool != b.tool || from.target == to.target) return;
     double far = 0.0;
     for (std::size_t i = 0; i < a.q.size(); ++i) far = std::max(far, std::abs(a.q[i] - b.q[i]));
-    const double points =
-        std::clamp(std::ceil(std::max((a.X_BD.p - b.X_BD.p).norm() / kSample_m, far / kSample_rad)),
-                   kFewest, kMost);
+    const double points = std::clamp(
+        std::ceil(std::max((a.X_BD->p - b.X_BD->p).norm() / kSample_m, far / kSample_rad)), kFewest,
+        kMost);
     KnownInputs unused(owner_.model_);
     Joints q = a.q;
     double largest = 0.0;
     for (double k = 1.0; k < points; ++k) {
-      const Transformd X_BD = between(a.X_BD, b.X_BD, k / points);
+      const Transformd X_BD = between(*a.X_BD, *b.X_BD, k / points);
       const CorrectedRow solved = correct(X_BD * a.X_PT, q, unused);
       if (refused(solved.correction.status)) return;
       std::copy_n(solved.correction.q.begin(), q.size(), q.begin());
@@ -298,6 +363,7 @@ class ProgramFilter::One {
   const Program& program_;
   Joints last_;
   std::vector<Done> done_;
+  std::map<char, bool> sides_;  // whether axis 5 is negative, by the word for it
   std::vector<programs::Edit> edits_;
   Filtered out_;
 };

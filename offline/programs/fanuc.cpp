@@ -132,6 +132,7 @@ class FanucReader {
     for (const char c : text.substr(0, text.find(','))) {
       if (c == 't' || c == 'b') out.front = c == 't';
       if (c == 'u' || c == 'd') out.elbow_front = c == 'u';
+      if (c == 'n' || c == 'f') out.side = c;
     }
     return out;
   }
@@ -173,8 +174,9 @@ class FanucReader {
   }
 
   const char* changed_by(std::size_t from, std::size_t to) const {
-    constexpr std::array kWords{"offset",        "tool_offset",  "voffset", "inc",   "rtcp",
-                                "sensor_offset", "touch_offset", "track",   "coord", "mrot"};
+    constexpr std::array kWords{"offset", "tool_offset",   "voffset",      "inc",
+                                "rtcp",   "sensor_offset", "touch_offset", "track",
+                                "coord",  "mrot",          "wjnt"};
     for (std::size_t k = from; k < to; ++k)
       for (const char* const word : kWords)
         if (tokens_.is(k, word)) return word;
@@ -209,6 +211,8 @@ class FanucReader {
   /// A statement that is no move: what it does to positions and frames.
   void other(std::size_t from, std::size_t to) {
     call(from, to);
+    for (const auto* word : {"lbl", "else", "endif", "for", "endfor", "select", "jmp"})
+      if (tokens_.is(from, word)) program_.moves.push_back({});  // reached from several places
     for (std::size_t k = from; k < to; ++k) {
       if (tokens_.is(k, "p") && tokens_.is(k + 1, "[") && !is_position(k))  // P[R[1]]=LPOS
         for (Target& target : program_.targets)

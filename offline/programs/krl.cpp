@@ -262,6 +262,10 @@ class KrlReader {
     if (one_of({"if", "switch"})) flow_.block(false);
     if (one_of({"else", "case", "default"})) flow_.branch();
     if (one_of({"endif", "endfor", "endwhile", "endloop", "until", "endswitch"})) flow_.end_block();
+    const bool several = one_of({"for", "while", "loop", "repeat", "else", "case", "default",
+                                 "endif", "endfor", "endwhile", "endloop", "until", "endswitch"}) ||
+                         (t.is(i + 1, ":") && ends(t, i + 2));
+    if (several || one_of({"spl", "sspl"})) somewhere();  // reached from several places, or unknown
     if (one_of({"goto"})) flow_.jump();
     if (t.is(i + 1, ":") && ends(t, i + 2)) flow_.label();
     if (one_of({"spline", "ptp_spline"})) spline_ = !ends(t, i + 1);

@@ -32,6 +32,7 @@ void share(std::vector<Program>& programs, Frames Program::*which) {
     for (Program& to : programs) {
       if (&from == &to) continue;
       for (const auto& [name, frame] : from.*which) {
+        if (frame.local) continue;
         const auto [at, is_new] = (to.*which).emplace(name, frame);
         Frame& own = at->second;
         if (is_new || own.moving || same(own, frame)) continue;

@@ -80,6 +80,8 @@ void Tokens::read(const Lexis& lexis) {
       ++line;
     } else if (begins_comment(at, lexis)) {
       push(Kind::kComment, line_end);
+    } else if (c == '\'' && bytes_.find(c, at + 1) >= line_end) {
+      push(Kind::kSign, at + 1);  // an apostrophe: MESSAGE[DON'T WAIT]
     } else if (c == lexis.quote) {
       push(Kind::kText, std::min(bytes_.find(lexis.quote, at + 1), line_end - 1) + 1);
     } else if (digit(c) || (c == '.' && at + 1 < bytes_.size() && digit(bytes_[at + 1]))) {

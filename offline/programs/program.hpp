@@ -53,12 +53,16 @@ struct Configuration {
   std::vector<Range> ranges;
   std::optional<bool> front;        // the wrist lies in front of axis 1
   std::optional<bool> elbow_front;  // with `front`: the wrist lies in front of the lower arm
+  /// One of two words for the side of axis 5, of which nobody knows which is which: two targets
+  /// with one word are on one side, with two on both.
+  char side = 0;
 };
 
 /// A pose of a tool in the flange, or of a work frame in the base.
 struct Frame {
   std::optional<Transformd> X;
   std::string why = {};  // why it is not known, if it is named but not usable
+  bool local = false;    // of its file alone
   bool moving = false;   // it is no one pose while the programs run: no option can say where it is
 };
 

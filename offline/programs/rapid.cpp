@@ -35,6 +35,11 @@ constexpr MoveWords kRapidMoves[] = {
 constexpr std::string_view kReaders[] = {"searchl", "searchc",   "arcl",    "arcc",  "arclstart",
                                          "arclend", "arccstart", "arccend", "spotl", "spotj",
                                          "spotml",  "spotmj",    "displ",   "dispc"};
+/// Motion to where the text does not say, and places that are reached from several others.
+constexpr std::string_view kElsewhere[] = {"egmrunjoint", "egmrunpose", "indamove", "indcmove",
+                                           "inddmove",    "indrmove",   "for",      "while",
+                                           "endfor",      "endwhile",   "else",     "elseif",
+                                           "endif",       "case",       "default",  "endtest"};
 constexpr std::string_view kReadingFunctions[] = {"crobt", "cpos", "calcjointt", "calcrobt"};
 
 /// Instructions that move targets while the program runs, wherever these are stated.
@@ -99,7 +104,15 @@ class RapidReader {
                        [&](std::string_view word) { return tokens_.is(i, word); });
   }
 
+  /// "LOCAL PERS tooldata": of this module alone.
+  bool local_at(std::size_t i) const {
+    return (i > 0 && tokens_.is(i - 1, "local")) || (i > 1 && tokens_.is(i - 2, "local"));
+  }
+
   void declaration(std::size_t i) {
+    if (tokens_.is(i, "proc") || tokens_.is(i, "func") || tokens_.is(i, "trap")) inside_ = true;
+    if (tokens_.is(i, "endproc") || tokens_.is(i, "endfunc") || tokens_.is(i, "endtrap"))
+      inside_ = false;
     const bool pose = tokens_.is(i, "robtarget"), joints = tokens_.is(i, "jointtarget");
     const bool tool = tokens_.is(i, "tooldata"), wobj = tokens_.is(i, "wobjdata");
     if (!(pose || joints || tool || wobj) || !tokens_.is_word(i + 1)) return;
@@ -110,8 +123,10 @@ class RapidReader {
     if (pose || joints) {
       names_.declare(tokens_, i + 1, target(value, pose));
     } else {
-      names_.declare(tokens_, i + 1, tool ? program_.tools : program_.frames,
-                     tool ? tool_of(value) : work_of(value));
+      Frame frame = tool ? tool_of(value) : work_of(value);
+      if (inside_) frame = {.X = {}, .why = "a routine has one of its own", .moving = true};
+      frame.local = local_at(i);
+      names_.declare(tokens_, i + 1, tool ? program_.tools : program_.frames, std::move(frame));
     }
   }
 
@@ -193,7 +208,10 @@ class RapidReader {
     Argument now{.begin = i, .end = 0};
     const auto close = [&](std::size_t k) {
       if (now.end == 0) now.end = k;
-      if (now.end > now.begin) out.push_back(now);
+      if (now.end > now.begin)
+        out.push_back(now);
+      else if (now.wobj > 0 && !out.empty())  // ", \WObj:=" as well as "\WObj:="
+        out.back().wobj = now.wobj;
       now = {.begin = k + 1, .end = 0};
     };
     for (; !tokens_.ended(i) && !tokens_.is(i, ";"); ++i) {
@@ -253,16 +271,17 @@ class RapidReader {
     if (!tokens_.is_word(i)) return;
     if (one_of(kReadingFunctions, i)) return reading_function(i);
     routine(i);
+    if (one_of(kElsewhere, i)) return somewhere();
     const auto* words = std::find_if(std::begin(kRapidMoves), std::end(kRapidMoves),
                                      [&](const MoveWords& w) { return tokens_.is(i, w.name); });
     const bool moves = words != std::end(kRapidMoves);
     if (!moves && !one_of(kReaders, i)) return;
     const auto given = arguments(i + 1);
+    if (!routine_.empty()) program_.facts.moves.insert(routine_);
     if (!moves) somewhere();
     if (!moves && given.size() > 2) allow_names(given.back(), given);
     if (!moves || given.size() <= words->tool) return;
     allow_names(given[words->tool], given);
-    if (!routine_.empty()) program_.facts.moves.insert(routine_);
     const bool joint = words->motion == Motion::kJoint;
     Move move{.motion = words->motion,
               .tool = name_at(given[words->tool].begin),
@@ -320,6 +339,7 @@ class RapidReader {
   const Facts& around_;
   Names names_;
   Tokens tokens_;
+  bool inside_ = false;  // a routine, while declarations are read
   std::string routine_;  // the one around
 };
 

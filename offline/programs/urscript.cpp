@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numbers>
 
 #include "programs/current_frame.hpp"
 #include "programs/languages.hpp"
@@ -75,18 +77,27 @@ class UrscriptReader {
     if (!tokens_.is_word(i)) return;
     const bool thread = tokens_.is(i, "thread") || tokens_.is(i, "sec");
     const bool loop = tokens_.is(i, "while") || tokens_.is(i, "for");
-    if (tokens_.is(i, "end") && flow_.end() && !program_.moves.empty()) somewhere();
+    if (tokens_.is(i, "end")) {
+      flow_.end();
+      somewhere();
+    }
     if (begins(i) && (thread || tokens_.is(i, "def"))) {
       if (!program_.moves.empty()) somewhere();
       flow_.routine(tokens_.lower(i + 1), thread);
     }
+    const bool several = loop || tokens_.is(i, "elif") || tokens_.is(i, "else");
+    if (begins(i) && several) somewhere();  // reached from several places
     if (begins(i) && (loop || tokens_.is(i, "if"))) flow_.block(loop);
     if (begins(i) && (tokens_.is(i, "elif") || tokens_.is(i, "else"))) flow_.branch();
     const bool declares = i > 0 && (tokens_.is(i - 1, "def") || tokens_.is(i - 1, "thread") ||
                                     tokens_.is(i - 1, "sec"));
     if (!tokens_.is(i + 1, "(") || declares) return;
     flow_.call(tokens_.lower(i));
-    if (around_.moves.contains(tokens_.lower(i))) somewhere();
+    constexpr std::array kOtherMotion{"servoj",         "servoc",     "speedj",       "speedl",
+                                      "freedrive_mode", "teach_mode", "movep_follow", "jog"};
+    const bool elsewhere = std::any_of(kOtherMotion.begin(), kOtherMotion.end(),
+                                       [&](const char* word) { return tokens_.is(i, word); });
+    if (elsewhere || around_.moves.contains(tokens_.lower(i))) somewhere();
   }
 
   /// From here on the arm may be anywhere: other moves than those of the text before came between.
@@ -141,9 +152,7 @@ class UrscriptReader {
   void goal(std::size_t& k, Move& move) {
     const std::size_t begin = k;
     if (auto written = literal(k); written && ends(k)) {
-      move.target = static_cast<int>(program_.targets.size());
-      program_.targets.push_back(
-          {.name = "target of the move", .line = tokens_.line(begin), .written = *written});
+      move.target = inline_target(begin, *written);
       return;
     }
     k = begin;
@@ -166,22 +175,40 @@ class UrscriptReader {
   /// get_inverse_kin(P, qnear=Q), as the teach pendant writes it: a move to P, with its joints near
   /// Q.
   bool inverse_of(std::size_t& k, Move& move) {
-    if (!tokens_.is(k, "get_inverse_kin") || !tokens_.is(k + 1, "(") || !tokens_.is_word(k + 2))
-      return false;
-    std::size_t next = k + 3;
+    if (!tokens_.is(k, "get_inverse_kin") || !tokens_.is(k + 1, "(")) return false;
+    const std::size_t begin = k + 2;
+    std::size_t next = begin;
+    const auto stated = literal(next);
+    if (!stated) next = begin + 1;
     std::size_t near = 0;
+    std::optional<Written> joints;
     if (tokens_.is(next, ",") && tokens_.is(next + 1, "qnear") && tokens_.is(next + 2, "=")) {
       near = next + 3;
-      next = near + 1;
+      next = near;
+      joints = literal(next);
+      if (!joints) next = near + 1;
     }
     if (!tokens_.is(next, ")") || !ends(next + 1)) return false;
-    const int target = names_.used(tokens_, k + 2);
-    if (target < 0) return false;
-    move.target = target;
-    const int joints = near > 0 ? names_.used(tokens_, near) : -1;
-    if (near > 0) near_.emplace_back(program_.moves.size(), joints);
+    if (stated && stated->notation == Notation::kVector) {
+      move.target = inline_target(begin, *stated);
+    } else {
+      move.target = tokens_.is_word(begin) ? names_.used(tokens_, begin) : -1;
+    }
+    if (move.target < 0) return false;
+    if (joints) {
+      for (const Number& q : joints->numbers)
+        move.joints_deg.push_back(q.value * 180.0 / std::numbers::pi);
+    } else if (near > 0) {
+      near_.emplace_back(program_.moves.size(), names_.used(tokens_, near));
+    }
     k = next + 1;
     return true;
+  }
+
+  int inline_target(std::size_t i, const Written& written) {
+    program_.targets.push_back(
+        {.name = "target of the move", .line = tokens_.line(i), .written = written});
+    return static_cast<int>(program_.targets.size()) - 1;
   }
 
   /// The joints that qnear names, if they are known and nothing changes them.
@@ -189,7 +216,7 @@ class UrscriptReader {
     const Target* near = joints < 0 ? nullptr : &program_.targets[static_cast<std::size_t>(joints)];
     if (near != nullptr && near->why.empty() && near->written.notation == Notation::kJoints_rad) {
       for (const Number& q : near->written.numbers)
-        move.joints_deg.push_back(q.value * 180.0 / 3.14159265358979323846);
+        move.joints_deg.push_back(q.value * 180.0 / std::numbers::pi);
       return;
     }
     Target& target = program_.targets[static_cast<std::size_t>(move.target)];

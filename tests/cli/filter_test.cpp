@@ -575,6 +575,43 @@ TEST_F(FilterVerb, WhereTheArmWasIsForgottenBehindATargetThatIsNotKnown) {
   EXPECT_EQ(count(std::string(text).insert(second, "MoveL Offs(p0,0,0,5),v100,fine,tGun;\r\n")), 1);
 }
 
+/// The same pose with one wrist and with the other: their corrections differ by millimetres.
+TEST_F(FilterVerb, ATargetThatIsReachedInTwoWaysIsListed) {
+  const auto why = [](const std::string& name, const std::string& text) {
+    box->write(name, text);
+    const Ran ran = box->plumb({"-C", "cell", "filter", name, "--tool", "1=model", "--frame",
+                                "0=0,0,0,0,0,0", "--dry-run", "--json"});
+    std::string out;
+    const Json untouched = program(ran).at("untouched");
+    for (const auto& one : untouched) out += one["why"].get<std::string>() + "\n";
+    return out;
+  };
+  const std::string other_wrist =
+      "movej(get_inverse_kin(W_p,qnear=[0.139626,0.314159,1.082104,-2.792527,-0.907571,-2.617994]))"
+      "\n";
+  const std::string script =
+      "def prog():\nset_tcp(p[0,0,0.15,0,0,0])\n"
+      "global W_p=p[1.583209,0.370682,1.468158,0.520189,2.274424,0.783132]\n"
+      "movej(get_inverse_kin(W_p,qnear=[0.139626,0.314159,1.082104,0.349066,0.907571,0.523599]))\n";
+  EXPECT_EQ(why("once.script", script + "end\n"), "");
+  EXPECT_EQ(why("twice.script", script + other_wrist + "end\n"),
+            "moves reach it with different joint positions\n");
+  const auto fanuc = [](const std::string& side) {
+    const auto pose = [](int number, const std::string& word) {
+      return "P[" + std::to_string(number) + "]{\n   GP1:\n\tUF : 0, UT : 1,\tCONFIG : '" + word +
+             " U T, 0, 0, 0',\n\tX = 1583.209 mm, Y = 370.682 mm, Z = 1468.158 mm,\n"
+             "\tW = 132.334 deg, P = 27.512 deg, R = 141.890 deg\n};\n";
+    };
+    return "/PROG X\n/MN\n 1:J P[1] 50% FINE ;\n 2:J P[2] 50% FINE ;\n 3:J P[3] 50% FINE ;\n"
+           "/POS\nP[1]{\n   GP1:\n\tUF : 0, UT : 1,\n\tJ1= 8 deg, J2= 18 deg, J3= 62 deg,\n"
+           "\tJ4= 20 deg, J5= 52 deg, J6= 30 deg\n};\n" +
+           pose(2, "N") + pose(3, side) + "/END\n";
+  };
+  EXPECT_EQ(why("same.ls", fanuc("N")), "");
+  EXPECT_EQ(why("both.ls", fanuc("F")),
+            "the wrist that was found for it contradicts 'F' of other targets\n");
+}
+
 TEST_F(FilterVerb, AFileInThePlaceOfTheFolderIsSaidBeforeAnythingElse) {
   box->write("folder.mod", rapid(*cases, Pose::Identity(), Pose::Identity(), kOwnTool, kNoFrame));
   box->write("taken", "x");

@@ -20,6 +20,14 @@ inline std::string corpus(const std::string& name) {
   return out.str();
 }
 
+/// The first move that goes to a target.
+inline Move first_move(const Program& program) {
+  for (const Move& move : program.moves)
+    if (move.target >= 0) return move;
+  ADD_FAILURE() << "no move goes to a target";
+  return {};
+}
+
 /// A program of these bytes, as the verb would read it.
 inline Program read_bytes(const std::string& file, const std::string& bytes,
                           const std::string& data = "") {

@@ -229,7 +229,7 @@ TEST(Doubts, ACallOfARoutineThatSetsAToolLeavesItUnknown) {
       "DEF a()\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nsub()\nPTP {X 1,Y 2,Z 3,A "
       "0,B 0,C 0}\nEND\n";
   const auto with = [&](const std::string& sub) {
-    const Move move = read_together(".src", {krl, sub})[0].moves[0];
+    const Move move = first_move(read_together(".src", {krl, sub})[0]);
     return move.tool + "/" + move.frame;
   };
   EXPECT_EQ(with("DEF other()\n$TOOL=TOOL_DATA[2]\nEND\n"), "1/1");
@@ -259,7 +259,7 @@ TEST(Doubts, WithJumpsAToolIsKnownOnlyIfNoneCanPassItBy) {
   const std::string go = "PTP {X 1,Y 2,Z 3,A 0,B 0,C 0}\n", one = "$TOOL=TOOL_DATA[1]\n",
                     two = "$TOOL=TOOL_DATA[2]\n", jump = "GOTO L\n", label = "L:\n";
   const auto tool = [&](const std::string& body) {
-    return read_bytes("x.src", "DEF x()\n" + body + "END\n").moves[0].tool;
+    return first_move(read_bytes("x.src", "DEF x()\n" + body + "END\n")).tool;
   };
   EXPECT_EQ(tool(one + label + go + jump), "1");
   EXPECT_EQ(tool(one + label + go + one + jump), "1");
@@ -276,7 +276,7 @@ TEST(Doubts, WithJumpsAToolIsKnownOnlyIfNoneCanPassItBy) {
 std::string krl_frame(const std::string& body, const std::string& data = "") {
   const Program p =
       read_bytes("x.src", "DEF x()\n" + body + "END\n", "DEFDAT x\n" + data + "ENDDAT\n");
-  const Move& move = p.moves.at(0);
+  const Move move = first_move(p);
   const auto at = p.frames.find(move.frame), all = p.frames.find(kAllFrames);
   if (all != p.frames.end() && all->second.moving) return "moving";
   if (at == p.frames.end()) return move.frame;
@@ -294,7 +294,7 @@ TEST(Doubts, ASplineBlockSaysWhatItsMovesAreMadeWith) {
 
 TEST(Doubts, AToolThatStandsInTheCellStaysThereWhateverToolIsNamed) {
   const auto tool = [](const std::string& body) {
-    return read_bytes("x.src", "DEF x()\n" + body + "END\n").moves.at(0).tool;
+    return first_move(read_bytes("x.src", "DEF x()\n" + body + "END\n")).tool;
   };
   const std::string go = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
   EXPECT_EQ(tool("$IPO_MODE=#BASE\n$TOOL=TOOL_DATA[1]\n" + go + "\n"), "1");
@@ -516,6 +516,89 @@ TEST(Doubts, AFileInWhichNothingIsFoundSaysSo) {
   EXPECT_FALSE(read_bytes("x.mod", tool_module("")).states_nothing);
   EXPECT_FALSE(
       read_bytes("x.mod", "PERS tooldata t:=[TRUE,[[0,0,1],[1,0,0,0]],[1]];\n").states_nothing);
+}
+
+/// Whether the arm is known to be at the target before when it begins the last move of a program.
+bool follows(const Program& p) {
+  std::size_t last = p.moves.size();
+  while (last > 0 && p.moves[last - 1].target < 0) --last;
+  return last > 1 && p.moves[last - 2].target >= 0;
+}
+
+TEST(Doubts, WhereTextsMeetAndBehindOtherMotionTheArmMayBeAnywhere) {
+  const std::string go = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\n";
+  const auto krl = [&](const std::string& between) {
+    return follows(read_bytes("x.src", "DEF x()\n" + go + between + go + "END\n"));
+  };
+  EXPECT_TRUE(krl(""));
+  EXPECT_TRUE(krl("$VEL.CP=1\n"));
+  for (const char* between : {"LOOP\n", "IF a THEN\nENDIF\n", "here:\n", "SPL XP1\n"})
+    EXPECT_FALSE(krl(between)) << between;
+  const auto ur = [](const std::string& between) {
+    const std::string move = "  movel(p[1,0,0,0,0,0])\n";
+    return follows(read_bytes("x.script", "def x():\n" + move + between + move + "end\n"));
+  };
+  EXPECT_TRUE(ur("  sleep(1)\n"));
+  for (const char* between :
+       {"  servoj([0,0,0,0,0,0])\n", "  while True:\n", "  if a:\n  end\n", "  speedl(v)\n"})
+    EXPECT_FALSE(ur(between)) << between;
+  const auto fanuc = [](const std::string& between) {
+    return follows(read_bytes("x.ls", "/MN\n1: L P[1] 10mm/sec FINE ;\n" + between +
+                                          "3: L P[2] 10mm/sec FINE ;\n/POS\n/END\n"));
+  };
+  EXPECT_TRUE(fanuc("2: WAIT 1.00(sec) ;\n"));
+  for (const char* between : {"2: LBL[1] ;\n", "2: ENDIF ;\n", "2: ELSE ;\n", "2: ENDFOR ;\n"})
+    EXPECT_FALSE(fanuc(between)) << between;
+}
+
+const std::string kTarget = "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+
+TEST(Doubts, AWorkObjectBehindACommaIsThatOfTheMove) {
+  const auto frame = [](const std::string& end) {
+    return first_move(read_bytes("x.mod", "MODULE m\nCONST robtarget p:=" + kTarget +
+                                              ";\nPROC a()\nMoveL p,v100,fine,tool0" + end +
+                                              ";\nENDPROC\nENDMODULE\n"))
+        .frame;
+  };
+  EXPECT_EQ(frame("\\WObj:=wT"), "wt");
+  EXPECT_EQ(frame(",\\WObj:=wT"), "wt");
+  EXPECT_EQ(frame(""), "wobj0");
+}
+
+TEST(Doubts, AToolOfARoutineOrOfAnotherModuleIsNotThatOfTheMove) {
+  const std::string tool =
+      "PERS tooldata g:=[TRUE,[[0,0,9],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
+  const std::string moves = "CONST robtarget p:=" + kTarget +
+                            ";\nPROC main()\nMoveL p,v100,fine,g;\nENDPROC\nENDMODULE\n";
+  const Program own = read_bytes("a.mod", "MODULE a\nPROC b()\n" + tool + "ENDPROC\n" + moves);
+  EXPECT_TRUE(own.tools.at("g").moving);
+  const auto with = [&](const std::string& scope) {
+    return read_together(".mod",
+                         {"MODULE a\n" + moves, "MODULE b\n" + scope + tool + "ENDMODULE\n"})[0]
+        .tools.contains("g");
+  };
+  EXPECT_TRUE(with(""));
+  EXPECT_FALSE(with("LOCAL "));
+}
+
+TEST(Doubts, AnApostropheHidesNothingBehindIt) {
+  const Program p = read_bytes(
+      "x.ls",
+      "/MN\n1: MESSAGE[DON'T WAIT] ;\n2: SOFTFLOAT[1] ;\n3:L P[1] 9mm/sec FINE ;\n/POS\n"
+      "P[1]{\nGP1:\nUF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0',\nX = 1 mm, Y = 2 mm, Z = 3 mm,\n"
+      "W = 4 deg, P = 5 deg, R = 6 deg\n};\n/END\n");
+  EXPECT_NE(named(p, "P[1]").why, "");
+  EXPECT_EQ(named(p, "P[1]").configuration.side, 'n');
+}
+
+TEST(Doubts, TheInverseOfAStatedPoseIsAMoveToIt) {
+  const Program p = read_bytes(
+      "x.script",
+      "def x():\n movej(get_inverse_kin(p[1,2,3,0,0,0], qnear=[0,1.5,0,0,0,0]), a=1)\nend\n");
+  const Move move = first_move(p);
+  ASSERT_EQ(move.joints_deg.size(), 6U);
+  EXPECT_NEAR(move.joints_deg[1], 1.5 * 180.0 / 3.14159265358979, 1e-9);
+  EXPECT_EQ(values_of(p.targets[static_cast<std::size_t>(move.target)].written)[2], 3.0);
 }
 
 }  // namespace
