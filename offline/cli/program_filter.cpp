@@ -126,7 +126,7 @@ class ProgramFilter::One {
     if (found.q.empty()) {
       done.why = found.why;
       done.help = found.help;
-    } else if (!done.q.empty() && !same(done.q, found.q)) {
+    } else if (!done.q.empty() && programs::distance(done.q, found.q) > kSameJoints_rad) {
       done.why = "moves reach it with different joint positions";
       done.help = "give each of them a target of its own";
     } else if (!side_agrees(target.configuration.side, found.q)) {
@@ -138,12 +138,6 @@ class ProgramFilter::One {
       return;
     }
     done.q.clear();
-  }
-
-  static bool same(const Joints& a, const Joints& b) {
-    double far = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) far = std::max(far, std::abs(a[i] - b[i]));
-    return far < kSameJoints_rad;
   }
 
   /// One word for the side of axis 5 belongs to one sign of it.
@@ -339,8 +333,7 @@ class ProgramFilter::One {
     const Done& a = done_[static_cast<std::size_t>(from.target)];
     const Done& b = done_[static_cast<std::size_t>(to.target)];
     if (!a.corrected || !b.corrected || a.tool != b.tool || from.target == to.target) return;
-    double far = 0.0;
-    for (std::size_t i = 0; i < a.q.size(); ++i) far = std::max(far, std::abs(a.q[i] - b.q[i]));
+    const double far = programs::distance(a.q, b.q);
     const double points = std::clamp(
         std::ceil(std::max((a.X_BD->p - b.X_BD->p).norm() / kSample_m, far / kSample_rad)), kFewest,
         kMost);

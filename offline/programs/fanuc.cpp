@@ -142,9 +142,7 @@ class FanucReader {
   }
 
   static void spoil(Target& target, const std::string& why, const std::string& help) {
-    if (!target.why.empty() || why.empty()) return;
-    target.why = why;
-    target.help = help;
+    if (!why.empty()) target.leave(why, help);
   }
 
   /// Tokens [from, to): "12 : L P[1] 100 mm / sec FINE", on one or several lines.
@@ -281,11 +279,10 @@ void read_fanuc(Program& program, const Facts& around) { FanucReader(program, ar
 
 /// Behind the line "/MN".
 std::size_t fanuc_comment_place(std::string_view bytes) {
-  std::size_t at = 0;
-  while (at < bytes.size()) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
-    if (lower_case(bytes.substr(at, 3)) == "/mn") return end;
-    at = end;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::string line = lower_case(line_at(bytes, at));
+    at += line.size();
+    if (line.substr(0, 3) == "/mn") return at;
   }
   return 0;
 }

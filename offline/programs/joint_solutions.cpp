@@ -25,12 +25,6 @@ constexpr double kClearly = 0.7;      // the nearest solution is taken if it is 
 // and no farther than a third of the half turn by which the other one of a wrist differs.
 constexpr double kNear_rad = 60.0 * kDegree;
 
-double distance(const Joints& a, const Joints& b) {
-  double out = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::abs(a[i] - b[i]));
-  return out;
-}
-
 Vector3 vector_of(const std::array<double, 4>& v) { return {v[0], v[1], v[2]}; }
 
 /// The point of the second axis that is nearest to the first.
@@ -43,6 +37,12 @@ Vector3 crossing(const ChainAxes::Axis& first, const ChainAxes::Axis& second) {
 }
 
 }  // namespace
+
+double distance(const Joints& a, const Joints& b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::abs(a[i] - b[i]));
+  return out;
+}
 
 JointSolutions::JointSolutions(const format::Chain& arm) : arm_(&arm), chain_(arm) {}
 

@@ -15,6 +15,9 @@ namespace plumb::offline::programs {
 /// Joint positions [rad] or [m], as the chain counts.
 using Joints = std::vector<double>;
 
+/// The largest difference of a joint.
+double distance(const Joints& a, const Joints& b);
+
 /// Which joint positions of the nominal arm a target means. The arm is that of a model, and must
 /// outlive this object.
 class JointSolutions {

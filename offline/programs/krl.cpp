@@ -258,16 +258,17 @@ class KrlReader {
       flow_.end_routine();
       if (!program_.moves.empty()) somewhere();
     }
-    if (one_of({"for", "while", "loop", "repeat"})) flow_.block(true);
-    if (one_of({"if", "switch"})) flow_.block(false);
-    if (one_of({"else", "case", "default"})) flow_.branch();
-    if (one_of({"endif", "endfor", "endwhile", "endloop", "until", "endswitch"})) flow_.end_block();
-    const bool several = one_of({"for", "while", "loop", "repeat", "else", "case", "default",
-                                 "endif", "endfor", "endwhile", "endloop", "until", "endswitch"}) ||
-                         (t.is(i + 1, ":") && ends(t, i + 2));
-    if (several || one_of({"spl", "sspl"})) somewhere();  // reached from several places, or unknown
+    const bool loop = one_of({"for", "while", "loop", "repeat"});
+    const bool branch = one_of({"else", "case", "default"});
+    const bool end = one_of({"endif", "endfor", "endwhile", "endloop", "until", "endswitch"});
+    const bool label = t.is(i + 1, ":") && ends(t, i + 2);
+    if (loop || one_of({"if", "switch"})) flow_.block(loop);
+    if (branch) flow_.branch();
+    if (end) flow_.end_block();
+    // Reached from several places, or moved to where the text does not say.
+    if (loop || branch || end || label || one_of({"spl", "sspl"})) somewhere();
     if (one_of({"goto"})) flow_.jump();
-    if (t.is(i + 1, ":") && ends(t, i + 2)) flow_.label();
+    if (label) flow_.label();
     if (one_of({"spline", "ptp_spline"})) spline_ = !ends(t, i + 1);
     if (one_of({"endspline"})) spline_ = false;
     if (one_of({"$robroot"})) names_.displace(t, i);
@@ -426,14 +427,8 @@ class KrlReader {
         ++k;
         return known;
       }
-    if (const auto value = aggregate(t, k); value && over(k)) {
-      Target inline_one = target(value);
-      inline_one.name = "target of the move";
-      inline_one.source = t.source();
-      inline_one.line = t.line(begin);
-      program_.targets.push_back(inline_one);
-      return static_cast<int>(program_.targets.size()) - 1;
-    }
+    if (const auto value = aggregate(t, k); value && over(k))
+      return program_.add_inline(target(value), t.source(), t.line(begin));
     k = begin;
     const bool name = t.is_word(k) && over(k + 1);
     const int out =
@@ -512,13 +507,10 @@ class KrlReader {
         if (std::tie(other.tool, other.frame, other.configured) ==
             std::tie(move.tool, move.frame, move.configured))
           continue;
-        for (const int t : {other.target, move.target}) {
-          Target& target = program_.targets[static_cast<std::size_t>(t)];
-          if (!target.why.empty()) continue;
-          target.why =
-              "the comment of its fold stands for two moves, with different tools or bases";
-          target.help = "give each of them a fold of its own";
-        }
+        for (const int t : {other.target, move.target})
+          program_.targets[static_cast<std::size_t>(t)].leave(
+              "the comment of its fold stands for two moves, with different tools or bases",
+              "give each of them a fold of its own");
       }
     }
   }
@@ -540,13 +532,11 @@ void read_krl(Program& program, const Facts& around) { KrlReader(program, around
 
 /// Behind the lines with & and the line of DEF, DEFFCT or DEFDAT.
 std::size_t krl_comment_place(std::string_view bytes) {
-  std::size_t at = 0;
-  while (at < bytes.size()) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
-    const std::string line = lower_case(bytes.substr(at, end - at));
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::string line = lower_case(line_at(bytes, at));
+    at += line.size();
     const std::size_t word = std::min(line.find_first_not_of(" \t"), line.size());
-    if (line.substr(word, 3) == "def" || line.substr(word, 10) == "global def") return end;
-    at = end;
+    if (line.substr(word, 3) == "def" || line.substr(word, 10) == "global def") return at;
   }
   return 0;
 }

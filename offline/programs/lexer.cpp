@@ -189,4 +189,8 @@ std::vector<Number> numbers_of(const Value& value, std::size_t count) {
   return out;
 }
 
+std::string_view line_at(std::string_view bytes, std::size_t at) {
+  return bytes.substr(at, std::min(bytes.find('\n', at), bytes.size() - 1) + 1 - at);
+}
+
 }  // namespace plumb::offline::programs

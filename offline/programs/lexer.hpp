@@ -80,4 +80,7 @@ std::vector<Number> numbers_of(const Value& value, std::size_t count);
 
 std::string lower_case(std::string_view text);
 
+/// From this byte to the end of its line, with the sign that ends it.
+std::string_view line_at(std::string_view bytes, std::size_t at);
+
 }  // namespace plumb::offline::programs

@@ -6,16 +6,6 @@
 #include <utility>
 
 namespace plumb::offline::programs {
-namespace {
-
-void leave(Target& target, std::string why, std::string help) {
-  if (!target.why.empty()) return;
-  target.why = std::move(why);
-  target.help = std::move(help);
-}
-
-}  // namespace
-
 void Names::declare(const Tokens& tokens, std::size_t name, Target target) {
   allow(tokens, name);
   target.name = std::string(tokens.text(name));
@@ -26,9 +16,9 @@ void Names::declare(const Tokens& tokens, std::size_t name, Target target) {
   const auto [other, is_new] = index_.emplace(tokens.lower(name), own);
   if (is_new) return;
   for (const int t : {other->second, own})
-    leave(program_->targets[static_cast<std::size_t>(t)],
-          fmt::format("its name is declared more than once, in line {} too", tokens.line(name)),
-          "give every target a name of its own");
+    program_->targets[static_cast<std::size_t>(t)].leave(
+        fmt::format("its name is declared more than once, in line {} too", tokens.line(name)),
+        "give every target a name of its own");
 }
 
 int Names::used(const Tokens& tokens, std::size_t name) {
@@ -48,8 +38,8 @@ void Names::declare(const Tokens& tokens, std::size_t name, Frames& frames, Fram
 void Names::spoil(const std::string& name, const std::string& where) {
   const std::string why = where + " uses it for something else than a move";
   if (const auto target = index_.find(name); target != index_.end())
-    leave(program_->targets[static_cast<std::size_t>(target->second)], why + " to it",
-          "give the moves a target that nothing else reads or changes");
+    program_->targets[static_cast<std::size_t>(target->second)].leave(
+        why + " to it", "give the moves a target that nothing else reads or changes");
   if (const auto frame = frames_.find(name); frame != frames_.end())
     (*frame->second)[name] = {.X = {}, .why = why, .moving = true};
 }
@@ -78,8 +68,8 @@ void Names::look_elsewhere(const Facts& around) {
   for (const auto& [name, frame] : frames_) look(name);
   if (around.displaced.empty()) return;
   for (Target& target : program_->targets)
-    leave(target, around.displaced,
-          "take that out, or filter apart the programs that do not run with it");
+    target.leave(around.displaced,
+                 "take that out, or filter apart the programs that do not run with it");
 }
 
 void Names::displace(const Tokens& tokens, std::size_t i) {

@@ -33,6 +33,20 @@ void Facts::close() {
     }
 }
 
+void Target::leave(std::string reason, std::string remedy) {
+  if (!why.empty()) return;
+  why = std::move(reason);
+  help = std::move(remedy);
+}
+
+int Program::add_inline(Target target, std::size_t source, int line) {
+  target.name = "target of the move";
+  target.source = source;
+  target.line = line;
+  targets.push_back(std::move(target));
+  return static_cast<int>(targets.size()) - 1;
+}
+
 int Program::list(std::string name, std::size_t source, int line, std::string why,
                   std::string help) {
   targets.push_back({.name = std::move(name),

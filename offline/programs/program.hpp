@@ -82,6 +82,9 @@ struct Target {
   std::string help = {};              // what to do then
   bool external_axes = false;         // it states where external axes stand
   std::vector<Number> copies = {};    // the same numbers once more, as in the comment of a fold
+
+  /// It is not to be touched, for this reason, unless another one is known already.
+  void leave(std::string reason, std::string remedy);
 };
 
 enum class Motion { kJoint, kLinear, kVia, kCircleEnd };
@@ -124,6 +127,9 @@ struct Program {
   Frames tools, frames;
   Facts facts;
   bool states_nothing = false;  // no target, no move, no tool, no frame: is it a program at all?
+
+  /// Adds a target that a move states itself, and returns its index.
+  int add_inline(Target target, std::size_t source, int line);
 
   /// Lists something that is not touched, and returns its index.
   int list(std::string name, std::size_t source, int line, std::string why, std::string help);

@@ -295,10 +295,10 @@ class RapidReader {
       if (k + 1 < words->targets) one.motion = Motion::kVia;
       one.target = goal(given[k], words->name == "moveabsj");
       program_.moves.push_back(one);
-      Target& target = program_.targets[static_cast<std::size_t>(one.target)];
-      if (!target.why.empty() || !tracks(i)) continue;
-      target.why = fmt::format("line {} moves it with \\Corr", move.line);
-      target.help = "state the position that is meant, without a correction";
+      if (tracks(i))
+        program_.targets[static_cast<std::size_t>(one.target)].leave(
+            fmt::format("line {} moves it with \\Corr", move.line),
+            "state the position that is meant, without a correction");
     }
   }
 
@@ -314,13 +314,8 @@ class RapidReader {
       return listed(at, "the program does not state it", "state it in the module of its moves");
     }
     std::size_t k = at.begin;
-    if (const auto value = list_at(tokens_, k); value && k == at.end) {
-      Target inline_one = target(value, !joints);
-      inline_one.name = "target of the move";
-      inline_one.line = tokens_.line(at.begin);
-      program_.targets.push_back(inline_one);
-      return static_cast<int>(program_.targets.size()) - 1;
-    }
+    if (const auto value = list_at(tokens_, k); value && k == at.end)
+      return program_.add_inline(target(value, !joints), 0, tokens_.line(at.begin));
     const bool offset = tokens_.is(at.begin, "offs") || tokens_.is(at.begin, "reltool");
     if (offset && tokens_.is(at.begin + 1, "(") && tokens_.is_word(at.begin + 2) &&
         tokens_.is(at.begin + 3, ",")) {
@@ -349,11 +344,9 @@ void read_rapid(Program& program, const Facts& around) { RapidReader(program, ar
 
 /// Behind the line of MODULE, before which no comment needs to be legal.
 std::size_t rapid_comment_place(std::string_view bytes) {
-  std::size_t at = 0;
-  while (at < bytes.size()) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
-    const std::string line = lower_case(bytes.substr(at, end - at));
-    const std::size_t word = line.find_first_not_of(" \t");
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::string line = lower_case(line_at(bytes, at));
+    const std::size_t word = line.find_first_not_of(" \t"), end = at + line.size();
     if (word != std::string::npos && line.substr(word, 7) == "module ") {
       // MODULE m (SYSMODULE, NOSTEPIN): the list may go on for lines.
       const std::size_t open = line.find('('), shut = line.find(')');

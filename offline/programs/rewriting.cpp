@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "programs/lexer.hpp"
 #include "programs/written.hpp"
 
 namespace plumb::offline::programs {
@@ -34,11 +35,8 @@ std::pair<std::size_t, std::size_t> place(const Edit& edit) {
 
 std::vector<std::string_view> lines_of(std::string_view bytes) {
   std::vector<std::string_view> out;
-  while (!bytes.empty()) {
-    const std::size_t end = std::min(bytes.find('\n'), bytes.size() - 1) + 1;
-    out.push_back(bytes.substr(0, end));
-    bytes.remove_prefix(end);
-  }
+  for (std::size_t at = 0; at < bytes.size(); at += out.back().size())
+    out.push_back(line_at(bytes, at));
   return out;
 }
 

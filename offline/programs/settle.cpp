@@ -11,10 +11,10 @@ namespace {
 void take(std::string& own, const std::string& of_move, bool first, const char* what, int line,
           Target& target) {
   if (first && own.empty()) own = of_move;
-  if (own == of_move || of_move.empty() || !target.why.empty()) return;
-  target.why =
-      fmt::format("two {}s are used with it: '{}', and '{}' in line {}", what, own, of_move, line);
-  target.help = fmt::format("give each {} a target of its own", what);
+  if (own == of_move || of_move.empty()) return;
+  target.leave(
+      fmt::format("two {}s are used with it: '{}', and '{}' in line {}", what, own, of_move, line),
+      fmt::format("give each {} a target of its own", what));
 }
 
 }  // namespace
@@ -34,9 +34,9 @@ void settle(Program& program) {
   for (std::size_t t = 0; t < uses.size(); ++t) {
     Target& target = program.targets[t];
     if (!configured[t]) target.configuration = {};
-    if (uses[t] > 0 || !target.why.empty()) continue;
-    target.why = "no move of the program goes to it";
-    target.help = "nothing, if it is not used; else use it in a move of this program";
+    if (uses[t] == 0)
+      target.leave("no move of the program goes to it",
+                   "nothing, if it is not used; else use it in a move of this program");
   }
 }
 

@@ -60,9 +60,7 @@ class UrscriptReader {
 
   void declaration(std::size_t i) {
     if (!tokens_.is_word(i) || !tokens_.is(i + 1, "=") || tokens_.is(i + 2, "=")) return;
-    const bool begins = i == 0 || tokens_.at(i - 1).kind == Token::Kind::kLine ||
-                        tokens_.is(i - 1, "global") || tokens_.is(i - 1, "local");
-    if (!begins) return;
+    if (!begins(i) && !tokens_.is(i - 1, "global") && !tokens_.is(i - 1, "local")) return;
     std::size_t k = i + 2;
     const auto written = literal(k);
     if (!written || tokens_.at(k).kind == Token::Kind::kSign) return;
@@ -85,10 +83,10 @@ class UrscriptReader {
       if (!program_.moves.empty()) somewhere();
       flow_.routine(tokens_.lower(i + 1), thread);
     }
-    const bool several = loop || tokens_.is(i, "elif") || tokens_.is(i, "else");
-    if (begins(i) && several) somewhere();  // reached from several places
+    const bool branch = tokens_.is(i, "elif") || tokens_.is(i, "else");
+    if (begins(i) && (loop || branch)) somewhere();  // reached from several places
     if (begins(i) && (loop || tokens_.is(i, "if"))) flow_.block(loop);
-    if (begins(i) && (tokens_.is(i, "elif") || tokens_.is(i, "else"))) flow_.branch();
+    if (begins(i) && branch) flow_.branch();
     const bool declares = i > 0 && (tokens_.is(i - 1, "def") || tokens_.is(i - 1, "thread") ||
                                     tokens_.is(i - 1, "sec"));
     if (!tokens_.is(i + 1, "(") || declares) return;
@@ -206,9 +204,7 @@ class UrscriptReader {
   }
 
   int inline_target(std::size_t i, const Written& written) {
-    program_.targets.push_back(
-        {.name = "target of the move", .line = tokens_.line(i), .written = written});
-    return static_cast<int>(program_.targets.size()) - 1;
+    return program_.add_inline({.written = written}, 0, tokens_.line(i));
   }
 
   /// The joints that qnear names, if they are known and nothing changes them.
@@ -219,10 +215,9 @@ class UrscriptReader {
         move.joints_deg.push_back(q.value * 180.0 / std::numbers::pi);
       return;
     }
-    Target& target = program_.targets[static_cast<std::size_t>(move.target)];
-    if (!target.why.empty()) return;
-    target.why = fmt::format("line {} takes its joints near others that are not known", move.line);
-    target.help = "state the joints of qnear as [...] of their own, which nothing changes";
+    program_.targets[static_cast<std::size_t>(move.target)].leave(
+        fmt::format("line {} takes its joints near others that are not known", move.line),
+        "state the joints of qnear as [...] of their own, which nothing changes");
   }
 
   Program& program_;

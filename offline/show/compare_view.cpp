@@ -57,9 +57,8 @@ struct ErrorOf {
   const char* caption;
   std::string (*text)(double si);
 };
-std::string degrees(double rad) { return fmt::format("{:.4f}", to_deg(rad)); }
 constexpr ErrorOf kOfPosition{"Mean error [mm] by ", mm};
-constexpr ErrorOf kOfOrientation{"Mean orientation error [deg] by ", degrees};
+constexpr ErrorOf kOfOrientation{"Mean orientation error [deg] by ", deg};
 
 Table profile_table(const ErrorProfile& profile, Comparison::Set set,
                     const ErrorOf& of = kOfPosition) {
@@ -123,7 +122,7 @@ Blocks turn_blocks(const Cell& cell, const Comparison& comparison) {
               .captioned = true,
               .head = {"pose", "orientation error"}};
   for (std::size_t i = 0; i < std::min(kWorstOrientations, turns.poses.size()); ++i)
-    worst.add({turns.poses[i].pose, degrees(turns.poses[i].error_rad)});
+    worst.add({turns.poses[i].pose, deg(turns.poses[i].error_rad)});
   Blocks out;
   for (auto& words : {turning_joint_words(cell, turns),
                       dependence_words(turns.profiles, "The orientation error")})

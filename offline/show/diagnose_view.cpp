@@ -36,7 +36,6 @@ Table turn_steps(const Cell& cell, const Diagnosis& d) {
   Table table{.name = "orientation_steps",
               .caption = "Held-out orientation error [deg] as the model grows",
               .head = {"held-out orientation error [deg]", head::kMean, head::kP95, head::kMax}};
-  const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   const auto add = [&](const std::string& name, const ErrorStats& e) {
     table.add({name, deg(e.mean), deg(e.p95), deg(e.max)});
   };

@@ -31,7 +31,6 @@ Table turn_table(const ErrorStats& s, const OrientationFloor& floor) {
               .head = {"orientation error [deg]", head::kReadings, head::kMean, head::kRms,
                        head::kP95, head::kMax}};
   if (s.n == 0) return table;
-  const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
              deg(s.max)});
   if (floor.known()) table.add({floor_label(floor.source), "", deg(floor.mean_rad)});

@@ -170,7 +170,6 @@ Table turns_table(const recheck::TurnCheck& turns, const Run& run) {
       .head = {"orientation error [deg]", head::kReadings, head::kMean, head::kP95, head::kMax}};
   if (!turns.judged()) return table;
   const auto row = [&](const std::string& name, const ErrorStats& s) {
-    const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
     table.add({name, fmt::format("{}", s.n), deg(s.mean), deg(s.p95), deg(s.max)});
   };
   row(fmt::format("held-out, run {} when it was made", run.number), turns.then);

@@ -13,6 +13,8 @@ std::string mm(double metres) {
   return small ? fmt::format("{:.2g}", value) : fmt::format("{:.3f}", value);
 }
 
+std::string deg(double radians) { return fmt::format("{:.4f}", to_deg(radians)); }
+
 std::string shortest(double value) { return fmt::format("{}", value); }
 
 }  // namespace plumb::offline::show

@@ -26,6 +26,9 @@ inline bool slides(const format::JointRow& row) {
 /// Metres as mm for people: three decimals, or three digits if it is small.
 std::string mm(double metres);
 
+/// Radians as degrees for people, of an error of orientation: four decimals.
+std::string deg(double radians);
+
 /// The shortest text that reads back to the same bits.
 std::string shortest(double value);
 
